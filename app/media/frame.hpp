@@ -1,0 +1,48 @@
+// One picture of the footage, kept as the decoder gave it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "catchlight.hpp"
+#include "render/compositor.hpp"
+#include "tracking/tracker.hpp"
+
+struct AVFrame;
+
+namespace catchlight::app {
+
+/// Shares the decoder's samples; copies are cheap. Everything is in display orientation (rotation metadata already applied).
+class Frame {
+ public:
+  Frame(std::shared_ptr<const AVFrame> picture, std::int64_t number, double time_s);
+
+  std::int64_t number() const { return number_; }  ///< index in a video from 0; the file's own number in a sequence
+  double time_s() const { return time_s_; }
+  int width_px() const;
+  int height_px() const;
+  const AVFrame& picture() const { return *picture_; }
+
+  /// The luma plane as it is where it is 8-bit YUV or grey; else made once: deeper planes rounded to 8 bits, RGB weighted by Rec. 709 on codes,
+  /// float linear frames coded as sRGB first.
+  tracking::LumaView luma() const;
+
+  /// RGB codes of a part of the frame, by swscale with the stream's own matrix and range, accurate rounding and full chroma interpolation:
+  /// the same values as converting the whole frame.
+  render::Plate rgb(const PixelRect& rect) const;
+
+  /// The transfer function and primaries that the stream declares (unspecified: sRGB, Rec. 709).
+  render::PlateColor color() const;
+
+  /// A frame in the same pixel format whose changed pixels (alpha 1) show the composite; every other sample is the decoder's own.
+  /// In subsampled formats a chroma sample whose pixels all changed is the mean of theirs; where some did, it moves by the mean of the changes.
+  Frame with_composite(const render::Composite& composite) const;
+
+ private:
+  std::shared_ptr<const AVFrame> picture_;
+  std::int64_t number_;
+  double time_s_;
+  mutable std::shared_ptr<std::vector<std::uint8_t>> made_luma_;
+};
+
+}  // namespace catchlight::app

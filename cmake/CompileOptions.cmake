@@ -1,0 +1,17 @@
+# One interface target carries the flags of every target of ours.
+add_library(catchlight_options INTERFACE)
+target_include_directories(catchlight_options INTERFACE ${PROJECT_SOURCE_DIR})
+target_link_libraries(catchlight_options INTERFACE glm::glm)
+# No contraction: the same source gives the same bytes whether or not the compiler may fuse multiply-adds.
+target_compile_options(catchlight_options INTERFACE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -ffp-contract=off)
+if(CATCHLIGHT_WERROR)
+  target_compile_options(catchlight_options INTERFACE -Werror)
+endif()
+if(CATCHLIGHT_SANITIZE)
+  target_compile_options(catchlight_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  target_link_options(catchlight_options INTERFACE -fsanitize=address,undefined)
+endif()
+if(CATCHLIGHT_COVERAGE)
+  target_compile_options(catchlight_options INTERFACE --coverage -O0)
+  target_link_options(catchlight_options INTERFACE --coverage)
+endif()

@@ -1,0 +1,111 @@
+// Draws the virtual layer and puts it into the frame. Never knows whether a window exists: draws into its own framebuffers.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "catchlight.hpp"
+#include "render/image.hpp"
+#include "render/mesh.hpp"
+#include "render/prefilter.hpp"
+#include "render/sh.hpp"
+#include "render/transfer.hpp"
+
+namespace catchlight::render {
+
+/// Part of the footage's frame: RGB codes, row-major. Integers are full scale (255 or 65535 = code 1); floats are codes as they are.
+struct Plate {
+  enum class Format { rgb_u8, rgb_u16, rgb_f32 };
+  PixelRect rect;
+  Format format = Format::rgb_u8;
+  std::vector<std::byte> pixels;
+};
+
+/// Gives the requested part of the current frame; called only for what the virtual layer reaches.
+using PlateReader = std::function<Plate(const PixelRect&)>;
+
+/// What the scene is made of, all in the tag frame. Light is scene-linear radiance, Rec. 709.
+struct RenderScene {
+  Mesh mesh;
+  Transfer transfer;
+  ShRgb light;            ///< transfer.bands^2 coefficients
+  ReflectionMap reflections;
+};
+
+struct GlareSettings {
+  bool enabled = true;
+  double threshold = 1.0;        ///< exposed linear value above which the lens spills; 1 = sensor white
+  double bloom_strength = 0.08;
+  double streak_strength = 0.06;
+  int streak_directions = 4;
+  double streak_attenuation = 0.92;  ///< a of a^k, per pixel at a frame height of 480 px
+  double streak_rotation_deg = 45;
+};
+
+struct CompositorSettings {
+  GlareSettings glare;
+  int samples = 4;           ///< multisampling of the object's edges
+  std::string shader_folder; ///< overrides the embedded shaders where not empty
+};
+
+/// How the footage codes light.
+struct PlateColor {
+  TransferFunction transfer = TransferFunction::srgb;
+  glm::mat3 plate_from_rec709{1.0f};  ///< linear primaries conversion
+};
+
+/// The camera's part of one frame: exposed linear value = exposure * radiance + black.
+struct FrameView {
+  CameraModel camera;
+  RigidTransform camera_from_tag;
+  glm::vec3 exposure{1.0f};
+  glm::vec3 black{0.0f};
+  PlateColor color;
+  glm::dmat3 tag_from_light{1.0};  ///< turns the light against the tag (probe fixed to the camera)
+};
+
+/// Layers for compositing packages, whole frame, premultiplied, exposed linear in the plate's primaries. r = plate * shadow * (1 - a) + object + glare.
+struct Layers {
+  Image plate, object /* RGBA */, shadow, reflection, glare, normal, depth /* metres along z, 1 channel */;
+};
+
+/// The changed part of a frame. RGBA floats: display codes as the footage's, alpha 1 where the virtual layer changed the pixel, else 0.
+struct Composite {
+  PixelRect rect;           ///< empty: nothing virtual in sight
+  std::vector<float> rgba;  ///< row-major within rect
+  bool glare_drawn = false;
+  std::optional<Layers> layers;
+};
+
+/// Milliseconds by pass name, in drawing order.
+struct PassTime {
+  std::string name;
+  double ms;
+};
+
+/// Needs a current GL 4.5 core context for its whole life. Throws Error where a shader does not compile (file and log) or a texture is too large.
+class Compositor {
+ public:
+  Compositor(const RenderScene& scene, const CompositorSettings& settings);
+  ~Compositor();
+  Compositor(Compositor&&) noexcept;
+  Compositor& operator=(Compositor&&) noexcept;
+
+  /// Deterministic: the same input gives the same bytes. Holds no state between frames but buffers.
+  Composite render(const FrameView& view, const PlateReader& plate, bool want_layers = false);
+
+  /// Of the last frame.
+  const std::vector<PassTime>& pass_times() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace catchlight::render

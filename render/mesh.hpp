@@ -1,0 +1,51 @@
+// Triangle meshes with metallic-roughness materials.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "catchlight.hpp"
+
+namespace catchlight::render {
+
+/// glTF 2.0 metallic-roughness. Colours are linear Rec. 709.
+struct Material {
+  std::string name;
+  glm::vec3 base_color{0.8f};
+  float metallic = 0.0f;
+  float roughness = 1.0f;       ///< perceptual; alpha = roughness^2
+  float dielectric_f0 = 0.04f;  ///< ((ior-1)/(ior+1))^2 * KHR_materials_specular.specularFactor
+  glm::vec3 emissive{0.0f};     ///< radiance
+};
+
+struct Vertex {
+  glm::vec3 position_m;
+  glm::vec3 normal;
+  glm::vec3 color{1.0f};  ///< linear, multiplies the material's base colour (vertex colours and base colour textures end up here)
+};
+
+/// `triangle_material[i]` is the material of triangle i, indices[3i .. 3i+2]. Faces wind counter-clockwise seen from outside.
+struct Mesh {
+  std::vector<Vertex> vertices;
+  std::vector<std::uint32_t> indices;
+  std::vector<std::uint16_t> triangle_material;
+  std::vector<Material> materials;
+};
+
+/// glTF 2.0 (.glb, .gltf) with node transforms applied; OBJ and PLY. Units are metres. Makes normals where the file has none (area and
+/// angle weighted). Throws Error naming the file: unreadable, no triangles, non-finite positions, an unknown required extension.
+Mesh load_mesh(const std::string& path, const WarningHandler& warn);
+
+/// p -> linear part * p + translation; normals by the inverse transpose. `tag_from_object` is 3 rows of 4. Throws Error where singular.
+Mesh transformed(const Mesh& mesh, const glm::dmat4& tag_from_object);
+
+/// Appends `other`; materials are kept apart.
+void append(Mesh& mesh, const Mesh& other);
+
+/// Splits edges longer than `max_edge_m` (shared edges alike, so no cracks), keeping per-vertex lighting honest on long edges.
+/// Stops before exceeding `max_vertices`.
+void subdivide_long_edges(Mesh& mesh, double max_edge_m, std::size_t max_vertices);
+
+}  // namespace catchlight::render

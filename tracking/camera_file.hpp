@@ -1,0 +1,16 @@
+// Reads camera.yaml: OpenCV FileStorage as its calibration writes it, and ROS camera_info.
+#pragma once
+
+#include <string>
+
+#include "catchlight.hpp"
+
+namespace catchlight::tracking {
+
+/// Throws Error naming the file and the key for anything missing, malformed or not supported (e.g. fisheye models).
+CameraModel read_camera_file(const std::string& path);
+
+/// A guess for footage of an unknown camera: principal point in the middle, square pixels, no distortion.
+CameraModel camera_from_field_of_view(int width_px, int height_px, double horizontal_fov_deg);
+
+}  // namespace catchlight::tracking
