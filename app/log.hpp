@@ -1,0 +1,36 @@
+// Messages to the user: always stderr, so that stdout stays free for data.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "catchlight.hpp"
+
+namespace catchlight::app {
+
+/// Colours only on a terminal and without NO_COLOR (https://no-color.org).
+class Log {
+ public:
+  void set_quiet(bool quiet) { quiet_ = quiet; }
+  bool quiet() const { return quiet_; }
+
+  void info(const std::string& message);  ///< not when quiet
+  void warn(const std::string& message);  ///< kept for the report also when quiet
+  void error(const std::string& message);
+
+  /// Valid as long as the log.
+  WarningHandler warning_handler() {
+    return [this](const std::string& message) { warn(message); };
+  }
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+ private:
+  friend class Progress;
+  void print(const char* label, const char* color, const std::string& message);
+
+  bool quiet_ = false;
+  bool bar_shown_ = false;  ///< the cursor stands behind a progress bar
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace catchlight::app

@@ -1,0 +1,64 @@
+// What a run did and how long it took: --report FILE, and a few lines for people.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace catchlight::app {
+
+/// One choice of the plan, e.g. {"bands", "6", "set in the scene file"}.
+struct PlanEntry {
+  std::string choice, value, reason;
+};
+
+/// Milliseconds by stage; the stages keep the order in which they first came.
+class StageTimer {
+ public:
+  void add(const std::string& stage, double ms);
+
+  /// Runs `work` and adds its time.
+  template <class Work>
+  decltype(auto) measure(const std::string& stage, Work&& work) {
+    const Running running{*this, stage};
+    return std::forward<Work>(work)();
+  }
+
+  struct Summary {
+    std::string stage;
+    double median_ms, p95_ms;
+  };
+  /// Percentiles by nearest rank.
+  std::vector<Summary> summaries() const;
+
+ private:
+  struct Running {
+    StageTimer& timer;
+    const std::string& stage;
+    std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+    ~Running() { timer.add(stage, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count()); }
+  };
+  std::vector<std::pair<std::string, std::vector<double>>> samples_ms_;
+};
+
+struct Report {
+  std::int64_t frames = 0, tracked_frames = 0, coasting_frames = 0, lost_frames = 0;
+  double fps = 0;        ///< frames a second of wall-clock time, scene building left out
+  std::string renderer;  ///< GL_RENDERER
+  StageTimer stages;
+  std::vector<PlanEntry> plan;
+  std::vector<std::string> warnings;
+};
+
+/// JSON: frames, tracked_frames, coasting_frames, lost_frames, fps, renderer, stages.{name}.{median_ms,p95_ms}, plan, warnings.
+std::string report_json(const Report& report);
+
+/// Written beside and renamed; throws as write_text_file.
+void write_report(const std::string& path, const Report& report, bool overwrite);
+
+/// A few lines without the last line's end.
+std::string report_summary(const Report& report);
+
+}  // namespace catchlight::app

@@ -1,0 +1,37 @@
+// The track file: the whole interface between tracking and rendering. CSV, one row a frame, the first line names the columns:
+//   frame,time_s,found,r00,r01,r02,r10,...,r22,tx,ty,tz,state,exposure_r,...,black_b,corner_rms_px,ambiguity
+// r_ij is row i, column j of camera_from_tag's rotation; t is in metres. Lost frames (found 0) have empty pose cells.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "catchlight.hpp"
+#include "tracking/tracker.hpp"
+
+namespace catchlight::app {
+
+struct TrackRow {
+  std::int64_t frame = 0;
+  double time_s = 0;
+  bool found = false;
+  RigidTransform camera_from_tag;
+  tracking::TrackState state = tracking::TrackState::lost;
+  glm::dvec3 exposure{1.0};  ///< exposed linear value = exposure * radiance + black
+  glm::dvec3 black{0.0};
+  double corner_rms_px = 0;
+  double ambiguity = 0;
+};
+
+/// Columns are found by name; `frame` is needed, and r00 .. tz unless every row has found 0. A file without the others (known
+/// poses) reads too: found, tracking, exposure 1. Throws Error "file:line: ..." for what is malformed, not a rotation (more than
+/// 1e-3 off orthonormal or mirrored), not finite, or not in rising order of frames.
+std::vector<TrackRow> read_track_file(const std::string& path);
+
+/// Every number is the shortest text that reads back to the same bits. Written beside and renamed. Throws Error: unwritable;
+/// UsageError: exists without `overwrite`.
+void write_track_file(const std::string& path, const std::vector<TrackRow>& rows, bool overwrite);
+
+}  // namespace catchlight::app
