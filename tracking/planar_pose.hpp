@@ -1,0 +1,24 @@
+// The two poses that four corners of a square allow.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "catchlight.hpp"
+
+namespace catchlight::tracking {
+
+struct PoseHypothesis {
+  RigidTransform camera_from_tag;
+  double reprojection_rms_px = 0;  ///< over the four corners, as seen (distorted)
+};
+
+/// Corners of the tag's square in its own frame, in the order of TagObservation::corners_px.
+std::array<glm::dvec3, 4> tag_corners_m(double size_m);
+
+/// Infinitesimal plane-based pose estimation (Collins & Bartoli 2014), each solution refined by Levenberg-Marquardt on the
+/// reprojection error in pixels. At most two, the better first; only those with the tag in front of the camera and its
+/// printed face towards it. Empty for corners that no such pose explains.
+std::vector<PoseHypothesis> planar_poses(const CameraModel& camera, const std::array<glm::dvec2, 4>& corners_px, double size_m);
+
+}  // namespace catchlight::tracking

@@ -1,0 +1,44 @@
+// Chooses between the two planar poses with the memory of earlier frames, and predicts where the tag will be.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+
+#include "tracking/planar_pose.hpp"
+
+namespace catchlight::tracking {
+
+/// A hidden Markov chain of two states, the two hypotheses of each frame. A hypothesis is likely when it fits its corners
+/// and when it continues, at constant velocity, a hypothesis that was likely in the frame before. So evidence adds up
+/// over frames, follows each hypothesis through the moment where both coincide, and corrects a wrong first choice; what
+/// one frame says is bounded, so that no single one overrules a long history.
+class PoseMemory {
+ public:
+  /// `hypotheses`: one or two, from planar_poses(). Returns the index of the chosen one.
+  std::size_t choose(std::span<const PoseHypothesis> hypotheses, double time_s);
+
+  /// The chosen pose moved on to `time_s` at the velocity of the last two frames; empty before the first frame.
+  std::optional<RigidTransform> predict(double time_s) const;
+
+  /// Time of the last choose().
+  double last_time_s() const { return time_s_; }
+
+  void forget();
+
+ private:
+  struct Hypothesis {
+    RigidTransform camera_from_tag;
+    glm::dvec3 velocity_m_per_s{0};
+    glm::dvec3 turn_rad_per_s{0};  ///< in the camera frame
+    double probability = 0;
+  };
+  static RigidTransform moved(const Hypothesis& from, double dt_s);
+  static Hypothesis continued(const Hypothesis& before, const RigidTransform& camera_from_tag, double dt_s);
+
+  std::array<Hypothesis, 2> hypotheses_{};
+  std::size_t count_ = 0, chosen_ = 0;
+  double time_s_ = 0;
+};
+
+}  // namespace catchlight::tracking
