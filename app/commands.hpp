@@ -1,8 +1,8 @@
-// The table of subcommands.
+// What a subcommand is, and those there are; main.cpp has the table.
 #pragma once
 
+#include <span>
 #include <string>
-#include <vector>
 
 #include "app/log.hpp"
 #include "app/recording.hpp"
@@ -25,17 +25,19 @@ struct Command {
   void (*set_up)(CLI::App& command, Context& context);  ///< adds options and the callback that runs it
 };
 
-const std::vector<Command>& commands();
-
 void set_up_bake(CLI::App& command, Context& context);
 void set_up_info(CLI::App& command, Context& context);
+void set_up_overlay(CLI::App& command, Context& context);
 void set_up_params(CLI::App& command, Context& context);
 void set_up_probe(CLI::App& command, Context& context);
+void set_up_replay(CLI::App& command, Context& context);
+void set_up_track(CLI::App& command, Context& context);
 
-/// The positional RECORDING, --scene, --camera, --fov, and one option for every parameter.
+/// The positional RECORDING, --scene, --camera, --fov, and one option for every parameter. Both must live as long as `command`.
 void add_recording_options(CLI::App& command, std::string& location, RecordingOverrides& overrides);
 
-/// Runs the program. Exit code 0, 2 for a command line that cannot be carried out, 1 for anything else.
-int run_catchlight(int argc, const char* const* argv);
+/// Runs the command that the arguments name. Exit code 0, 2 for a command line that cannot be carried out, 1 for anything else;
+/// an error is one message on stderr.
+int run_command_line(std::span<const Command> commands, int argc, const char* const* argv);
 
 }  // namespace catchlight::app

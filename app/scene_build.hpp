@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <string>
 #include <vector>
 
 #include "app/report.hpp"
@@ -19,6 +20,8 @@ struct BuiltScene {
   glm::dmat3 light_from_probe{1.0};          ///< the frame of scene.light and scene.reflections
   bool light_follows_camera = false;         ///< probe.fixed_to = "camera": the light frame is the camera's, else the tag's
   glm::dvec3 still_irradiance_over_pi{0.0};  ///< on the tag, where the light does not follow the camera
+  int rays = 0;                              ///< per vertex in the bake
+  std::string transfer_key;                  ///< names the bake in the cache
   bool transfer_was_cached = false;
   std::vector<PlanEntry> plan;
 };

@@ -1,0 +1,113 @@
+#include "app/parameters.hpp"
+#include "render/sh.hpp"
+#include "tracking/tracker.hpp"
+
+namespace catchlight::app {
+namespace {
+
+using Scene = SceneSettings;
+
+std::vector<Parameter> make_table() {
+  return {
+      {"tag.family", "", "Family of the printed tag.",
+       ChoiceKind{[](Scene& s) -> std::string& { return s.tag.family; }, tracking::tag_families()}},
+      {"tag.id", "", "Number of the tag within its family.",
+       IntegerKind{[](Scene& s) -> int& { return s.tag.id; }, 0, 1'000'000}},
+      {"tag.size_m", "m", "Side of the square whose corners detectors return: the outer edge of the black border for tag36h11.",
+       RealKind{[](Scene& s) -> double& { return s.tag.size_m; }, 0.001, 100}},
+      {"tag.white_albedo", "", "Reflectance of the print's white: the reference for matching the exposure.",
+       RealKind{[](Scene& s) -> double& { return s.tag.white_albedo; }, 0.01, 1}},
+      {"tag.black_albedo", "", "Reflectance of the print's black.",
+       RealKind{[](Scene& s) -> double& { return s.tag.black_albedo; }, 0, 1}},
+
+      {"object.mesh", "", "glTF 2.0 (`.glb`, `.gltf`), OBJ or PLY file, in metres.",
+       PathKind{[](Scene& s) -> std::string& { return s.objects.back().mesh; }}},
+      {"object.tag_from_object.translation_m", "m", "Where the object's origin is in the tag frame.",
+       VectorKind{[](Scene& s) -> glm::dvec3& { return s.objects.back().translation_m; }, -1000, 1000}},
+      {"object.tag_from_object.rotation_deg", "deg",
+       "Turns about the tag's x axis first, then y, then z. `[90, 0, 0]` stands glTF's +y up on the tag.",
+       VectorKind{[](Scene& s) -> glm::dvec3& { return s.objects.back().rotation_deg; }, -360, 360}},
+      {"object.tag_from_object.scale", "", "Size of the object relative to its file.",
+       RealKind{[](Scene& s) -> double& { return s.objects.back().scale; }, 1e-6, 1e6}},
+      {"object.shading", "", "Lighting model: precomputed radiance transfer with mirror reflections.",
+       ChoiceKind{[](Scene& s) -> std::string& { return s.objects.back().shading; }, {"prt"}}},
+
+      {"receiver.plane", "", "The real surface that catches the shadow: the tag's plane, or none.",
+       ChoiceKind{[](Scene& s) -> std::string& { return s.receiver.plane; }, {"tag", "none"}}},
+      {"receiver.albedo", "", "Reflectance (linear RGB) of that surface.",
+       VectorKind{[](Scene& s) -> glm::dvec3& { return s.receiver.albedo; }, 0, 1}},
+
+      {"probe.image", "", "Light probe: OpenEXR or Radiance HDR, scene-linear Rec. 709.",
+       PathKind{[](Scene& s) -> std::string& { return s.probe.image; }}},
+      {"probe.layout", "", "How directions lie in the image; \"auto\": as the file says, else by its shape.",
+       ChoiceKind{[](Scene& s) -> std::string& { return s.probe.layout; },
+                  {"auto", "latlong", "angular", "mirror-ball", "cube-cross", "cube"}}},
+      {"probe.up", "", "The tag axis that points up in the world: \"z\" for a tag on a table, \"y\" for one on a wall.",
+       ChoiceKind{[](Scene& s) -> std::string& { return s.probe.up; }, {"z", "y"}}},
+      {"probe.yaw_deg", "deg", "Turns the probe about up, counter-clockwise seen from above.",
+       RealKind{[](Scene& s) -> double& { return s.probe.yaw_deg; }, -360, 360}},
+      {"probe.fixed_to", "",
+       "What the light stands still with: \"tag\" (moving camera) or \"camera\" (still camera, tag in the hand).",
+       ChoiceKind{[](Scene& s) -> std::string& { return s.probe.fixed_to; }, {"tag", "camera"}}},
+      {"probe.ev", "EV", "Brightens the probe.", RealKind{[](Scene& s) -> double& { return s.probe.ev; }, -30, 30}},
+
+      {"exposure.mode", "",
+       "\"match\" follows the footage by the tag's own white and black; \"fixed\" takes radiance as exposed.",
+       ChoiceKind{[](Scene& s) -> std::string& { return s.exposure.mode; }, {"match", "fixed"}}},
+      {"exposure.ev", "EV", "Brightens the virtual layer on top of that.",
+       RealKind{[](Scene& s) -> double& { return s.exposure.ev; }, -30, 30}},
+
+      {"glare.enabled", "", "Whether what exceeds the sensor's white spills as bloom and streaks.",
+       FlagKind{[](Scene& s) -> bool& { return s.glare.enabled; }}},
+      {"glare.threshold", "", "Exposed linear value above which the lens spills; 1 is the sensor's white.",
+       RealKind{[](Scene& s) -> double& { return s.glare.threshold; }, 0, 1000}},
+      {"glare.bloom_strength", "", "Share of the excess that becomes bloom.",
+       RealKind{[](Scene& s) -> double& { return s.glare.bloom_strength; }, 0, 10}},
+      {"glare.streak_strength", "", "Share of the excess that becomes streaks.",
+       RealKind{[](Scene& s) -> double& { return s.glare.streak_strength; }, 0, 10}},
+      {"glare.streak_directions", "", "Number of arms of a star.",
+       IntegerKind{[](Scene& s) -> int& { return s.glare.streak_directions; }, 1, 16}},
+      {"glare.streak_attenuation", "", "What is left of a streak a pixel further on, at a frame height of 480 px.",
+       RealKind{[](Scene& s) -> double& { return s.glare.streak_attenuation; }, 0, 0.999}},
+      {"glare.streak_rotation_deg", "deg", "Direction of the first arm.",
+       RealKind{[](Scene& s) -> double& { return s.glare.streak_rotation_deg; }, -360, 360}},
+
+      {"lens.noise", "", "Gives the virtual layer the footage's grain.",
+       SwitchKind{[](Scene& s) -> Switch& { return s.lens.noise; }, false}},
+      {"lens.motion_blur", "", "Blurs the virtual layer as the camera moves.",
+       SwitchKind{[](Scene& s) -> Switch& { return s.lens.motion_blur; }, false}},
+      {"lens.defocus", "", "Blurs the virtual layer as the lens is focused.",
+       SwitchKind{[](Scene& s) -> Switch& { return s.lens.defocus; }, false}},
+      {"lens.distortion", "", "Bends the virtual layer as the camera file says; \"auto\" is on.",
+       SwitchKind{[](Scene& s) -> Switch& { return s.lens.distortion; }, true}},
+
+      {"quality.tolerance", "",
+       "The visible error allowed, as a share of white; `quality.rays` is chosen from it where left out.",
+       RealKind{[](Scene& s) -> double& { return s.quality.tolerance; }, 0.0001, 0.5}},
+      {"quality.bands", "", "Bands of spherical harmonics that carry the diffuse light.",
+       IntegerKind{[](Scene& s) -> int& { return s.quality.bands; }, 1, render::kMaxShBands}},
+      {"quality.rays", "", "Rays per vertex in the transfer bake.",
+       IntegerKind{[](Scene& s) -> int& { return s.quality.rays; }, 16, 65536}},
+      {"quality.bounces", "", "Interreflections within the object.",
+       IntegerKind{[](Scene& s) -> int& { return s.quality.bounces; }, 0, 8}},
+      {"quality.samples", "", "Samples per pixel on the object's edges.",
+       IntegerKind{[](Scene& s) -> int& { return s.quality.samples; }, 1, 16}},
+      {"quality.receiver_points", "", "Points along each side of the grid that holds the shadow.",
+       IntegerKind{[](Scene& s) -> int& { return s.quality.receiver_points; }, 2, 1024}},
+  };
+}
+
+}  // namespace
+
+const std::vector<Parameter>& parameters() {
+  static const std::vector<Parameter> table = make_table();
+  return table;
+}
+
+const Parameter* find_parameter(const std::string& key) {
+  for (const Parameter& parameter : parameters())
+    if (parameter.key == key) return &parameter;
+  return nullptr;
+}
+
+}  // namespace catchlight::app

@@ -1,0 +1,127 @@
+#include "app/scene_build.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+#include "app/text.hpp"
+#include "render/prefilter.hpp"
+#include "render/sh.hpp"
+
+namespace catchlight::app {
+namespace {
+
+/// Light is kept at vertices and interpolated between them, so edges stay short against the object; the cap keeps bakes in
+/// seconds.
+constexpr double kEdgesAcrossDiagonal = 24;
+constexpr std::size_t kMaxVertices = 200'000;
+
+/// The error of low-discrepancy rays falls about as one over their number; four over it was found to stay under the tolerance.
+constexpr double kRayErrorFactor = 4;
+
+double diagonal_m(const render::Mesh& mesh) {
+  glm::vec3 low = mesh.vertices.front().position_m, high = low;
+  for (const render::Vertex& vertex : mesh.vertices) {
+    low = glm::min(low, vertex.position_m);
+    high = glm::max(high, vertex.position_m);
+  }
+  return glm::distance(low, high);
+}
+
+render::Probe load_scaled_probe(const SceneSettings& settings, const WarningHandler& warn) {
+  if (settings.probe.image.empty())
+    throw Error("the scene has no light: give [probe] image = \"FILE\" in the scene file, or --probe.image FILE");
+  render::ProbeLoadOptions options;
+  if (settings.probe.layout != "auto") options.layout = render::probe_layout_from_name(settings.probe.layout);
+  render::Probe probe = render::load_probe(settings.resolve(settings.probe.image), options, warn);
+  const auto gain = static_cast<float>(std::exp2(settings.probe.ev));
+  for (float& value : probe.image.data) value *= gain;
+  return probe;
+}
+
+/// Tag-fixed: the tag's frame. Camera-fixed: the camera's, whose up is -y and which looks along probe -z.
+glm::dmat3 light_from_probe(const SceneSettings::Probe& probe) {
+  if (probe.fixed_to == "tag") return render::tag_from_probe(probe.up.front(), probe.yaw_deg);
+  const glm::dmat3 camera_from_upright(glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0, 0, -1));
+  return camera_from_upright * render::tag_from_probe('y', probe.yaw_deg);
+}
+
+std::string origin_of(const SceneSettings& settings, const std::string& key) {
+  return settings.is_by_hand(key) ? "set by hand" : "default";
+}
+
+/// A power of two, as low-discrepancy points want it.
+int rays_for_tolerance(double tolerance) {
+  const auto wanted = static_cast<unsigned>(std::clamp(std::ceil(kRayErrorFactor / tolerance), 64.0, 16384.0));
+  return static_cast<int>(std::bit_ceil(wanted));
+}
+
+int choose_rays(const SceneSettings& settings, std::vector<PlanEntry>& plan) {
+  const bool by_hand = settings.is_by_hand("quality.rays");
+  const int rays = by_hand ? settings.quality.rays : rays_for_tolerance(settings.quality.tolerance);
+  plan.push_back(
+      {"rays", std::to_string(rays), by_hand ? "set by hand" : "for a tolerance of " + number_text(settings.quality.tolerance)});
+  return rays;
+}
+
+void bake(BuiltScene& built, const SceneSettings& settings, const WarningHandler& warn, const ProgressHandler& progress) {
+  const render::Mesh& mesh = built.scene.mesh;
+  render::TransferOptions options;
+  options.bands = settings.quality.bands;
+  options.rays = built.rays = choose_rays(settings, built.plan);
+  options.bounces = settings.quality.bounces;
+  const bool has_receiver = settings.receiver.plane == "tag";
+  const render::ReceiverGrid grid =
+      has_receiver ? render::receiver_grid_for(mesh, settings.quality.receiver_points) : render::ReceiverGrid{};
+  built.transfer_key = render::transfer_key(mesh, grid, options);
+  built.scene.transfer = render::load_or_bake_transfer(mesh, grid, options, render::default_cache_folder(), progress, warn,
+                                                       &built.transfer_was_cached);
+  built.plan.push_back({"bands", std::to_string(options.bands), origin_of(settings, "quality.bands")});
+  built.plan.push_back({"bounces", std::to_string(options.bounces), origin_of(settings, "quality.bounces")});
+  built.plan.push_back({"shadow",
+                        has_receiver ? std::to_string(grid.columns) + "x" + std::to_string(grid.rows) + " points" : "none",
+                        has_receiver ? "the object's reach on the tag's plane" : "receiver.plane is \"none\""});
+}
+
+/// By exact summation over the probe's texels, on the plane with normal tag +z.
+glm::dvec3 irradiance_over_pi(const BuiltScene& built, const glm::dmat3& tag_from_light) {
+  const glm::dmat3 probe_from_tag = glm::transpose(tag_from_light * built.light_from_probe);
+  return render::irradiance(built.probe, probe_from_tag * glm::dvec3(0, 0, 1)) / glm::pi<double>();
+}
+
+}  // namespace
+
+render::Mesh build_mesh(const SceneSettings& settings, const WarningHandler& warn) {
+  if (settings.objects.empty())
+    throw Error("the scene has no object: give an [[object]] in the scene file, or --object.mesh FILE");
+  render::Mesh mesh;
+  for (const SceneSettings::Object& object : settings.objects)
+    render::append(mesh, render::transformed(render::load_mesh(settings.resolve(object.mesh), warn), object.tag_from_object()));
+  render::subdivide_long_edges(mesh, diagonal_m(mesh) / kEdgesAcrossDiagonal, std::max(kMaxVertices, mesh.vertices.size()));
+  return mesh;
+}
+
+BuiltScene build_render_scene(const SceneSettings& settings, const WarningHandler& warn, const ProgressHandler& progress) {
+  BuiltScene built;
+  built.probe = load_scaled_probe(settings, warn);
+  built.light_from_probe = light_from_probe(settings.probe);
+  built.light_follows_camera = settings.probe.fixed_to == "camera";
+  built.scene.mesh = build_mesh(settings, warn);
+  bake(built, settings, warn, progress);
+  built.scene.light = render::rotate_sh(render::project_to_sh(built.probe, settings.quality.bands), built.light_from_probe);
+  built.scene.reflections = render::prefilter_reflections(built.probe, built.light_from_probe);
+  if (!built.light_follows_camera) built.still_irradiance_over_pi = irradiance_over_pi(built, glm::dmat3(1.0));
+  return built;
+}
+
+glm::dmat3 tag_from_light(const BuiltScene& built, const RigidTransform& camera_from_tag) {
+  return built.light_follows_camera ? glm::transpose(camera_from_tag.rotation) : glm::dmat3(1.0);
+}
+
+glm::dvec3 tag_irradiance_over_pi(const BuiltScene& built, const RigidTransform& camera_from_tag) {
+  if (!built.light_follows_camera) return built.still_irradiance_over_pi;
+  return irradiance_over_pi(built, tag_from_light(built, camera_from_tag));
+}
+
+}  // namespace catchlight::app
