@@ -14,8 +14,7 @@ struct Image {
 
   Image() = default;
   Image(int width_, int height_, int channels_ = 3)
-      : width(width_), height(height_), channels(channels_),
-        data(static_cast<std::size_t>(width_) * height_ * channels_, 0.0f) {}
+      : width(width_), height(height_), channels(channels_), data(static_cast<std::size_t>(width_) * height_ * channels_, 0.0f) {}
 
   float* pixel(int x, int y) { return &data[(static_cast<std::size_t>(y) * width + x) * channels]; }
   const float* pixel(int x, int y) const { return &data[(static_cast<std::size_t>(y) * width + x) * channels]; }

@@ -34,11 +34,13 @@ struct Mesh {
   std::vector<Material> materials;
 };
 
-/// glTF 2.0 (.glb, .gltf) with node transforms applied; OBJ and PLY. Units are metres. Makes normals where the file has none (area and
-/// angle weighted). Throws Error naming the file: unreadable, no triangles, non-finite positions, an unknown required extension.
+/// glTF 2.0 (.glb, .gltf) with node transforms applied; OBJ and PLY. Units are metres. Makes normals where the file has none
+/// (area and angle weighted). Throws Error naming the file: unreadable, no triangles, non-finite positions, an unknown required
+/// extension.
 Mesh load_mesh(const std::string& path, const WarningHandler& warn);
 
-/// p -> linear part * p + translation; normals by the inverse transpose. `tag_from_object` is 3 rows of 4. Throws Error where singular.
+/// p -> linear part * p + translation; normals by the inverse transpose. `tag_from_object` is 3 rows of 4. Throws Error where
+/// singular.
 Mesh transformed(const Mesh& mesh, const glm::dmat4& tag_from_object);
 
 /// Appends `other`; materials are kept apart.

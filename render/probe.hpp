@@ -1,7 +1,8 @@
 // Light probes: images of scene-linear radiance over all directions, in the layouts users have.
 //
 // The probe frame is +y up; in latlong (OpenEXR's ImfEnvmap.h) longitude 0 is +z in the middle column, +90 deg is +x, left of it.
-// Longitude is +180 deg at the left edge's pixel centres and -180 deg at the right edge's: outermost pixel centres lie on +-180 and +-90 deg.
+// Longitude is +180 deg at the left edge's pixel centres and -180 deg at the right edge's: outermost pixel centres lie on +-180
+// and +-90 deg.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -28,13 +29,15 @@ struct Probe {
   ProbeLayout layout = ProbeLayout::latlong;
 };
 
-/// Probe-frame direction (length 1) of image position (x, y) in texels, texel centres at integers; empty outside the layout's valid area.
+/// Probe-frame direction (length 1) of image position (x, y) in texels, texel centres at integers; empty outside the layout's
+/// valid area.
 std::optional<glm::dvec3> direction_from_texel(ProbeLayout layout, int width, int height, double x, double y);
 
 /// Inverse of direction_from_texel; finite for every direction, the poles and -z of the angular map included.
 glm::dvec2 texel_from_direction(ProbeLayout layout, int width, int height, const glm::dvec3& direction);
 
-/// Exact solid angle (sr) of texel (x, y), 0 outside the layout's valid area; they sum to 4 pi (mirror ball: less by its blind spot's rounding).
+/// Exact solid angle (sr) of texel (x, y), 0 outside the layout's valid area; they sum to 4 pi (mirror ball: less by its blind
+/// spot's rounding).
 double texel_solid_angle(ProbeLayout layout, int width, int height, int x, int y);
 
 /// Bilinear radiance in `direction`, continuous across the layout's seams.
@@ -44,8 +47,9 @@ glm::vec3 sample(const Probe& probe, const glm::dvec3& direction);
 Probe convert(const Probe& probe, ProbeLayout layout, int width = 0);
 
 struct ProbeLoadOptions {
-  std::optional<ProbeLayout> layout;  ///< empty: the file's envmap attribute, else by shape (2:1 latlong, 3:4 cube-cross, 1:6 cube), else an error
-  bool strict = false;                ///< refuse NaN, infinite or negative texels instead of treating them as 0
+  std::optional<ProbeLayout>
+      layout;  ///< empty: the file's envmap attribute, else by shape (2:1 latlong, 3:4 cube-cross, 1:6 cube), else an error
+  bool strict = false;  ///< refuse NaN, infinite or negative texels instead of treating them as 0
 };
 
 /// Reads OpenEXR or Radiance HDR. Warns once with count and first position of bad texels. Throws Error (file named) otherwise.
@@ -61,7 +65,8 @@ ShRgb project_to_sh(const Probe& probe, int bands);
 /// probe +y = tag +z, +z = tag -y, +x = tag +x) or 'y' (tag on a wall: axes agree); then yaw about up.
 glm::dmat3 tag_from_probe(char up, double yaw_deg);
 
-/// Irradiance (W-like units, integral of radiance * cos) on a surface with `normal_probe`, summed exactly over the texels above it.
+/// Irradiance (W-like units, integral of radiance * cos) on a surface with `normal_probe`, summed exactly over the texels above
+/// it.
 glm::dvec3 irradiance(const Probe& probe, const glm::dvec3& normal_probe);
 
 }  // namespace catchlight::render

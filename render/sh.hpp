@@ -14,11 +14,16 @@ namespace catchlight::render {
 
 inline constexpr int kMaxShBands = 10;
 
-constexpr int sh_index(int l, int m) { return l * (l + 1) + m; }
-constexpr int sh_count(int bands) { return bands * bands; }
+constexpr int sh_index(int l, int m) {
+  return l * (l + 1) + m;
+}
+constexpr int sh_count(int bands) {
+  return bands * bands;
+}
 
-/// y_i(direction) for all i < bands^2. `direction` has length 1; `out` holds bands^2 values.
+/// y_i(direction) for all i < bands^2. `direction` has length 1; `out` holds bands^2 values. Computed in double.
 void evaluate_sh(const glm::dvec3& direction, int bands, std::span<float> out);
+void evaluate_sh(const glm::dvec3& direction, int bands, std::span<double> out);
 
 /// RGB coefficients of a radiance function.
 using ShRgb = std::vector<glm::vec3>;
@@ -26,7 +31,8 @@ using ShRgb = std::vector<glm::vec3>;
 /// Coefficients of f(inverse(rotation) * direction), exact for every band: rotate(project(f)) = project(rotate(f)).
 ShRgb rotate_sh(const ShRgb& coefficients, const glm::dmat3& rotation);
 
-/// Irradiance / pi (radiosity of a white Lambertian surface) at `normal`, unshadowed: per band A_l / pi, A_l from Ramamoorthi & Hanrahan.
+/// Irradiance / pi (radiosity of a white Lambertian surface) at `normal`, unshadowed: per band A_l / pi, A_l from Ramamoorthi &
+/// Hanrahan.
 glm::dvec3 irradiance_over_pi(const ShRgb& radiance, const glm::dvec3& normal);
 
 /// A_l / pi of the clamped cosine lobe: 1, 2/3, 1/4, 0, -1/24, 0, ... any l.
