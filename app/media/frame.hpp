@@ -23,19 +23,20 @@ class Frame {
   int height_px() const;
   const AVFrame& picture() const { return *picture_; }
 
-  /// The luma plane as it is where it is 8-bit YUV or grey; else made once: deeper planes rounded to 8 bits, RGB weighted by Rec. 709 on codes,
-  /// float linear frames coded as sRGB first.
+  /// The luma plane as it is where it is 8-bit YUV or grey; else made once: deeper planes rounded to 8 bits, RGB weighted by Rec.
+  /// 709 on codes, float linear frames coded as sRGB first.
   tracking::LumaView luma() const;
 
-  /// RGB codes of a part of the frame, by swscale with the stream's own matrix and range, accurate rounding and full chroma interpolation:
-  /// the same values as converting the whole frame.
+  /// RGB codes of a part of the frame, by swscale with the stream's own matrix and range, accurate rounding and full chroma
+  /// interpolation: the same values as converting the whole frame.
   render::Plate rgb(const PixelRect& rect) const;
 
   /// The transfer function and primaries that the stream declares (unspecified: sRGB, Rec. 709).
   render::PlateColor color() const;
 
   /// A frame in the same pixel format whose changed pixels (alpha 1) show the composite; every other sample is the decoder's own.
-  /// In subsampled formats a chroma sample whose pixels all changed is the mean of theirs; where some did, it moves by the mean of the changes.
+  /// In subsampled formats a chroma sample whose pixels all changed is the mean of theirs; where some did, it moves by the mean
+  /// of the changes.
   Frame with_composite(const render::Composite& composite) const;
 
  private:

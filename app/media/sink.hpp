@@ -19,16 +19,18 @@ struct SinkOptions {
 /// Writes beside the output's name and renames on finish(); destroyed without finish(), it leaves nothing behind.
 class MediaSink {
  public:
-  /// By name: `.mp4 .mkv .mov` H.264, `.avi .nut` FFV1 (or as `codec` says), `%04d.png` a sequence numbered like the frames, `-` or `.y4m` y4m. Audio of `audio_from` (the source's location; empty: none) is copied over unchanged for the written time span,
-  /// timestamps and rates are the source's, colour tags too. Keeps the source's pixel format where the codec has it.
-  /// Throws Error / UsageError: exists without `overwrite`, unwritable folder, unknown extension, output equal to the input.
+  /// By name: `.mp4 .mkv .mov` H.264, `.avi .nut` FFV1 (or as `codec` says), `%04d.png` a sequence numbered like the frames, `-`
+  /// or `.y4m` y4m. Audio of `audio_from` (the source's location; empty: none) is copied over unchanged for the written time
+  /// span, timestamps and rates are the source's, colour tags too. Keeps the source's pixel format where the codec has it. Throws
+  /// Error / UsageError: exists without `overwrite`, unwritable folder, unknown extension, output equal to the input.
   static std::unique_ptr<MediaSink> open(const std::string& path, const std::string& source_location, const MediaSource& source,
                                          const SinkOptions& options);
   virtual ~MediaSink() = default;
 
   virtual void write(const Frame& frame) = 0;
 
-  /// Flushes, closes and puts the result under its name. Throws Error when the disk is full: nothing is left under the output's name.
+  /// Flushes, closes and puts the result under its name. Throws Error when the disk is full: nothing is left under the output's
+  /// name.
   virtual void finish() = 0;
 };
 

@@ -1,0 +1,22 @@
+// Pixel format conversion by swscale, as `ffmpeg -sws_flags accurate_rnd+full_chroma_int` does it. Private to app/media.
+#pragma once
+
+#include "app/media/ffmpeg_handles.hpp"
+#include "catchlight.hpp"
+
+namespace catchlight::app {
+
+/// The whole frame. YUV is read by its own matrix and range (untagged: BT.601, limited), RGB becomes BT.709 limited-range YUV;
+/// tags say so.
+FramePtr convert(const AVFrame& picture, AVPixelFormat format);
+
+/// A part into rows of `stride_bytes`. `rect` must begin and end on whole chroma samples or at the frame's edge.
+void convert_part(const AVFrame& picture, const PixelRect& rect, AVPixelFormat format, std::uint8_t* rows, int stride_bytes);
+
+/// The one of `formats` (ended by AV_PIX_FMT_NONE) that is `format` or loses least.
+AVPixelFormat nearest_format(AVPixelFormat format, const AVPixelFormat* formats);
+
+/// Float scene-linear pictures cannot be shown as they are: 16-bit sRGB codes, tagged so. Others: the same samples.
+FramePtr with_display_codes(const AVFrame& picture);
+
+}  // namespace catchlight::app
