@@ -1,1 +1,228 @@
-// to be written
+#include "render/compositor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "render/composite_pass.hpp"
+#include "render/gl_context.hpp"
+#include "render/glare.hpp"
+#include "render/lens.hpp"
+#include "render/light_transfer.hpp"
+#include "render/object_layers.hpp"
+#include "render/object_pass.hpp"
+#include "render/pass_clock.hpp"
+#include "render/receiver_pass.hpp"
+#include "render/scene_check.hpp"
+
+namespace catchlight::render {
+namespace {
+
+constexpr double kNear_m = 1e-3;
+
+struct Box {
+  glm::dvec3 min_m{std::numeric_limits<double>::max()}, max_m{std::numeric_limits<double>::lowest()};
+};
+
+Box bounding_box(const Mesh& mesh) {
+  Box box;
+  for (const std::uint32_t i : mesh.indices) {
+    const glm::dvec3 p(mesh.vertices[i].position_m);
+    box.min_m = glm::min(box.min_m, p);
+    box.max_m = glm::max(box.max_m, p);
+  }
+  return box;
+}
+
+int supported_samples(int wanted) {
+  GLint limit = 1;
+  glGetIntegerv(GL_MAX_SAMPLES, &limit);
+  return std::clamp(wanted, 1, static_cast<int>(limit));
+}
+
+}  // namespace
+
+struct Compositor::Impl {
+  Impl(const RenderScene& scene, const CompositorSettings& wanted);
+
+  Composite render(const FrameView& view, const PlateReader& plate, bool want_layers);
+  void relight(const glm::dmat3& tag_from_light);
+  void update_view(const FrameView& view);
+  PixelRect reach(const FrameView& view) const;
+  void make_targets(const PixelRect& rect, bool want_layers);
+  bool draw_virtual_layer(const FrameView& view, const PixelRect& rect);
+  Plate fetch(const PlateReader& plate, const PixelRect& rect);
+
+  CompositorSettings settings;
+  ShRgb light_probe;
+  Box box;
+  ReceiverGrid grid;
+  PassClock clock;
+  LightTransfer light;
+  ObjectPass object;
+  std::unique_ptr<ReceiverPass> receiver;
+  GlarePass glare;
+  CompositePass composite;
+  UniformBuffer<shader_interface::ViewUniforms> view_uniforms{"view"};
+  std::optional<glm::dmat3> lit_from;  ///< the light's turn that the points are lit for
+  std::unique_ptr<ObjectTarget> object_target;
+  std::unique_ptr<ColorTarget<1>> shadow_target;
+  std::vector<PassTime> times;
+};
+
+Compositor::Impl::Impl(const RenderScene& scene, const CompositorSettings& wanted)
+    : settings(wanted),
+      light_probe(checked(scene).light),
+      box(bounding_box(scene.mesh)),
+      grid(scene.transfer.grid),
+      light(wanted.shader_folder),
+      object(scene.mesh, LitPoints("object", scene.transfer.object, sh_count(scene.transfer.bands)), scene.reflections,
+             wanted.shader_folder),
+      glare(wanted.glare, wanted.shader_folder),
+      composite(wanted.shader_folder) {
+  settings.samples = supported_samples(wanted.samples);
+  if (grid.columns >= 2 && grid.rows >= 2) receiver = std::make_unique<ReceiverPass>(scene.transfer, wanted.shader_folder);
+  check_gl("the compositor's start");
+}
+
+/// The light turns against the object only where the probe is fixed to the camera.
+void Compositor::Impl::relight(const glm::dmat3& tag_from_light) {
+  if (lit_from == tag_from_light) return;
+  const ShRgb light_tag = tag_from_light == glm::dmat3(1.0) ? light_probe : rotate_sh(light_probe, tag_from_light);
+  light.set_light(light_tag);
+  object.light_by(light);
+  if (receiver) receiver->light_by(light, light_tag);
+  lit_from = tag_from_light;
+}
+
+void Compositor::Impl::update_view(const FrameView& view) {
+  const auto& [k1, k2, p1, p2, k3, k4, k5, k6] = view.camera.distortion;
+  const LensLimit limit = lens_limit(view.camera);
+  glm::dmat4 camera_from_tag(view.camera_from_tag.rotation);
+  camera_from_tag[3] = glm::dvec4(view.camera_from_tag.translation_m, 1.0);
+  shader_interface::ViewUniforms block{};
+  block.clip_from_camera = glm::mat4(clip_from_camera(view.camera, kNear_m));
+  block.camera_from_tag = glm::mat4(camera_from_tag);
+  block.light_from_tag = glm::mat4(glm::mat3(glm::transpose(view.tag_from_light)));
+  block.plate_from_rec709 = glm::mat4(view.color.plate_from_rec709);
+  block.camera_in_tag_m = glm::vec4(glm::vec3(inverse(view.camera_from_tag).translation_m), 1.0f);
+  block.exposure = glm::vec4(view.exposure, 0.0f);
+  block.radial_numerator = glm::vec4(k1, k2, k3, 0);
+  block.radial_denominator = glm::vec4(k4, k5, k6, 0);
+  block.tangential = glm::vec4(p1, p2, 0, 0);
+  block.lens_limit = glm::vec4(limit.radius, limit.distorted, limit.slope, 0);
+  view_uniforms.update(block);
+  view_uniforms.bind(BINDING_VIEW);
+}
+
+/// Pixels that object or shadow may touch.
+PixelRect Compositor::Impl::reach(const FrameView& view) const {
+  PixelRect rect;
+  if (box.min_m.x <= box.max_m.x) rect = visible_rect(view.camera, view.camera_from_tag, box.min_m, box.max_m, kNear_m);
+  const bool sees_front = inverse(view.camera_from_tag).translation_m.z > 0;
+  if (receiver && sees_front) {
+    const glm::dvec3 min_m(grid.min_m, 0.0), max_m(grid.max_m, 0.0);
+    rect = unite(rect, visible_rect(view.camera, view.camera_from_tag, min_m, max_m, kNear_m));
+  }
+  return rect;
+}
+
+void Compositor::Impl::make_targets(const PixelRect& rect, bool want_layers) {
+  const int width = roomy(rect.width), height = roomy(rect.height);
+  if (!object_target || !object_target->fits(width, height, want_layers)) {
+    object_target = std::make_unique<ObjectTarget>(width, height, settings.samples, want_layers);
+  }
+  if (!shadow_target || !shadow_target->fits(width, height))
+    shadow_target = std::make_unique<ColorTarget<1>>("shadow", GL_RGBA32F, width, height);
+}
+
+/// Object, shadow and what glares of them. True if anything does.
+bool Compositor::Impl::draw_virtual_layer(const FrameView& view, const PixelRect& rect) {
+  const int width = view.camera.width_px, height = view.camera.height_px;
+  {
+    const auto pass = clock.pass("object");
+    object.draw(*object_target, rect, width, height);
+  }
+  {
+    const auto pass = clock.pass("receiver");
+    const float no_shadow[4] = {1, 1, 1, 1};
+    glDisable(GL_SCISSOR_TEST);
+    glClearNamedFramebufferfv(shadow_target->framebuffer(), GL_COLOR, 0, no_shadow);
+    if (receiver && inverse(view.camera_from_tag).translation_m.z > 0) receiver->draw(*shadow_target, rect, width, height);
+  }
+  if (!settings.glare.enabled) return false;
+  const auto pass = clock.pass("highlights");
+  return glare.extract(object_target->color(), rect, width, height);
+}
+
+Plate Compositor::Impl::fetch(const PlateReader& plate, const PixelRect& rect) {
+  Plate result = plate(rect);
+  if (result.rect != rect) throw Error("the plate reader gave another rectangle than it was asked for");
+  return result;
+}
+
+Composite Compositor::Impl::render(const FrameView& view, const PlateReader& plate, bool want_layers) {
+  check_view(view);
+  clock.begin_frame();
+  times.clear();
+  const PixelRect whole{0, 0, view.camera.width_px, view.camera.height_px};
+  const PixelRect virtual_rect = reach(view);
+  Composite result;
+  if (virtual_rect.empty() && !want_layers) return result;
+
+  bool glares = false;
+  PixelRect output_rect = virtual_rect;
+  if (!virtual_rect.empty()) {
+    {
+      const auto pass = clock.pass("light");
+      relight(view.tag_from_light);
+    }
+    update_view(view);
+    make_targets(virtual_rect, want_layers);
+    glares = draw_virtual_layer(view, virtual_rect);
+    if (glares) {
+      const auto pass = clock.pass("glare");
+      output_rect = glare.spread(virtual_rect);
+    }
+  }
+  if (want_layers) output_rect = whole;
+
+  {
+    const auto pass = clock.pass("plate");
+    composite.upload(fetch(plate, output_rect));
+  }
+  {
+    const auto pass = clock.pass("composite");
+    composite.draw(view,
+                   {virtual_rect, object_target ? &object_target->color() : nullptr,
+                    shadow_target ? &shadow_target->texture() : nullptr, glares ? &glare : nullptr},
+                   settings.glare, want_layers);
+  }
+  result.rect = output_rect;
+  result.rgba = composite.read();
+  result.glare_drawn = glares;
+  if (want_layers) {
+    Layers& layers = result.layers.emplace();
+    composite.read_layers(layers);
+    read_object_layers(object_target.get(), virtual_rect, whole, layers);
+  }
+  check_gl("a frame");
+  times = clock.times();
+  return result;
+}
+
+Compositor::Compositor(const RenderScene& scene, const CompositorSettings& settings)
+    : impl_(std::make_unique<Impl>(scene, settings)) {}
+Compositor::~Compositor() = default;
+Compositor::Compositor(Compositor&&) noexcept = default;
+Compositor& Compositor::operator=(Compositor&&) noexcept = default;
+
+Composite Compositor::render(const FrameView& view, const PlateReader& plate, bool want_layers) {
+  return impl_->render(view, plate, want_layers);
+}
+
+const std::vector<PassTime>& Compositor::pass_times() const {
+  return impl_->times;
+}
+
+}  // namespace catchlight::render

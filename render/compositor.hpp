@@ -19,7 +19,8 @@
 
 namespace catchlight::render {
 
-/// Part of the footage's frame: RGB codes, row-major. Integers are full scale (255 or 65535 = code 1); floats are codes as they are.
+/// Part of the footage's frame: RGB codes, row-major. Integers are full scale (255 or 65535 = code 1); floats are codes as they
+/// are.
 struct Plate {
   enum class Format { rgb_u8, rgb_u16, rgb_f32 };
   PixelRect rect;
@@ -34,13 +35,13 @@ using PlateReader = std::function<Plate(const PixelRect&)>;
 struct RenderScene {
   Mesh mesh;
   Transfer transfer;
-  ShRgb light;            ///< transfer.bands^2 coefficients
+  ShRgb light;  ///< transfer.bands^2 coefficients
   ReflectionMap reflections;
 };
 
 struct GlareSettings {
   bool enabled = true;
-  double threshold = 1.0;        ///< exposed linear value above which the lens spills; 1 = sensor white
+  double threshold = 1.0;  ///< exposed linear value above which the lens spills; 1 = sensor white
   double bloom_strength = 0.08;
   double streak_strength = 0.06;
   int streak_directions = 4;
@@ -50,8 +51,8 @@ struct GlareSettings {
 
 struct CompositorSettings {
   GlareSettings glare;
-  int samples = 4;           ///< multisampling of the object's edges
-  std::string shader_folder; ///< overrides the embedded shaders where not empty
+  int samples = 4;            ///< multisampling of the object's edges
+  std::string shader_folder;  ///< overrides the embedded shaders where not empty
 };
 
 /// How the footage codes light.
@@ -70,12 +71,14 @@ struct FrameView {
   glm::dmat3 tag_from_light{1.0};  ///< turns the light against the tag (probe fixed to the camera)
 };
 
-/// Layers for compositing packages, whole frame, premultiplied, exposed linear in the plate's primaries. r = plate * shadow * (1 - a) + object + glare.
+/// Layers for compositing packages, whole frame, premultiplied, exposed linear in the plate's primaries. r = plate * shadow * (1
+/// - a) + object + glare.
 struct Layers {
   Image plate, object /* RGBA */, shadow, reflection, glare, normal, depth /* metres along z, 1 channel */;
 };
 
-/// The changed part of a frame. RGBA floats: display codes as the footage's, alpha 1 where the virtual layer changed the pixel, else 0.
+/// The changed part of a frame. RGBA floats: display codes as the footage's, alpha 1 where the virtual layer changed the pixel,
+/// else 0.
 struct Composite {
   PixelRect rect;           ///< empty: nothing virtual in sight
   std::vector<float> rgba;  ///< row-major within rect
@@ -89,7 +92,8 @@ struct PassTime {
   double ms;
 };
 
-/// Needs a current GL 4.5 core context for its whole life. Throws Error where a shader does not compile (file and log) or a texture is too large.
+/// Needs a current GL 4.5 core context for its whole life. Throws Error where a shader does not compile (file and log) or a
+/// texture is too large.
 class Compositor {
  public:
   Compositor(const RenderScene& scene, const CompositorSettings& settings);

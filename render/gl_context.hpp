@@ -6,7 +6,7 @@
 
 namespace catchlight::render {
 
-/// Current on the creating thread while it lives.
+/// Current on the creating thread while it lives. Everything made in it must be gone before it goes.
 class GlContext {
  public:
   virtual ~GlContext() = default;
@@ -22,5 +22,11 @@ std::unique_ptr<GlContext> make_headless_context();
 
 /// Of the current context.
 GlInfo gl_info();
+
+/// Makes high-severity messages of the current context wait for check_gl(). Headless contexts have it from the start.
+void install_debug_callback();
+
+/// Throws Error if GL complained since the last call; `where` names what was being done.
+void check_gl(const std::string& where);
 
 }  // namespace catchlight::render

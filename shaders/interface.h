@@ -1,1 +1,102 @@
-// to be written
+// What C++ and GLSL must agree on: uniform blocks (std140; only vec4, ivec4 and mat4 members, so C++ lays them out alike; a test asks GL),
+// and the numbers of bindings, attributes and outputs.
+#ifdef __cplusplus
+#pragma once
+#include <glm/glm.hpp>
+
+namespace catchlight::render::shader_interface {
+using glm::ivec4;
+using glm::mat4;
+using glm::vec4;
+#define UNIFORM_BLOCK(type, binding_number) struct type
+#define BLOCK_NAME(name)
+#else
+#define UNIFORM_BLOCK(type, binding_number) layout(std140, binding = binding_number) uniform type
+#define BLOCK_NAME(name) name
+#endif
+
+#define MAX_LIGHT_COEFFICIENTS 100
+
+// Uniform blocks
+#define BINDING_VIEW 0
+#define BINDING_MATERIAL 1
+#define BINDING_LIGHT 2
+#define BINDING_RECEIVER 3
+#define BINDING_COMPOSITE 4
+
+// Storage blocks
+#define BINDING_TRANSFER 0
+
+// Textures
+#define TEXTURE_PROBE 0
+#define TEXTURE_BRDF 1
+#define TEXTURE_RATIO 0
+#define TEXTURE_OBJECT 0
+#define TEXTURE_SHADOW 1
+#define TEXTURE_PLATE 2
+#define TEXTURE_BLOOM 3
+#define TEXTURE_STREAKS 4
+#define TEXTURE_SOURCE 0
+#define TEXTURE_COARSER 1
+
+// Vertex attributes
+#define ATTRIBUTE_POSITION 0
+#define ATTRIBUTE_NORMAL 1
+#define ATTRIBUTE_COLOR 2
+#define ATTRIBUTE_EXIT_RADIANCE 3
+
+// TransferFunction
+#define TRANSFER_SRGB 0
+#define TRANSFER_LINEAR 1
+#define TRANSFER_GAMMA22 2
+#define TRANSFER_GAMMA28 3
+#define TRANSFER_PQ 4
+#define TRANSFER_HLG 5
+
+// The camera and its exposure.
+UNIFORM_BLOCK(ViewUniforms, BINDING_VIEW) {
+  mat4 clip_from_camera;
+  mat4 camera_from_tag;
+  mat4 light_from_tag;      // rotation
+  mat4 plate_from_rec709;   // linear primaries
+  vec4 camera_in_tag_m;
+  vec4 exposure;
+  vec4 radial_numerator;    // k1 k2 k3
+  vec4 radial_denominator;  // k4 k5 k6
+  vec4 tangential;          // p1 p2
+  vec4 lens_limit;          // radius, distorted radius, slope
+} BLOCK_NAME(view);
+
+UNIFORM_BLOCK(MaterialUniforms, BINDING_MATERIAL) {
+  vec4 base_color_metallic;
+  vec4 emissive_roughness;
+  vec4 dielectric;          // f0, f90
+} BLOCK_NAME(material);
+
+UNIFORM_BLOCK(LightUniforms, BINDING_LIGHT) {
+  ivec4 count;              // coefficients
+  vec4 coefficients[MAX_LIGHT_COEFFICIENTS];
+} BLOCK_NAME(light);
+
+UNIFORM_BLOCK(ReceiverUniforms, BINDING_RECEIVER) {
+  vec4 min_max_m;           // tag x, y of the first and last points
+  vec4 one_over_unshadowed;
+  ivec4 points;             // columns, rows
+} BLOCK_NAME(receiver);
+
+// Rectangles are x, y, width, height in pixels of the frame.
+UNIFORM_BLOCK(CompositeUniforms, BINDING_COMPOSITE) {
+  ivec4 output_rect;
+  ivec4 virtual_rect;       // what object and shadow textures hold
+  ivec4 modes;              // TransferFunction, codes end at 1, glare drawn
+  vec4 black;
+  vec4 changed_code;        // x: smallest difference of codes that counts
+  vec4 glare;               // bloom and streak strength
+  vec4 glare_from_frame;    // texture coordinates of bloom (xy) and streaks (zw) per pixel
+} BLOCK_NAME(composite);
+
+#ifdef __cplusplus
+#undef UNIFORM_BLOCK
+#undef BLOCK_NAME
+}  // namespace catchlight::render::shader_interface
+#endif

@@ -1,0 +1,126 @@
+#include "render/composite_pass.hpp"
+
+#include <algorithm>
+
+#include "render/read_back.hpp"
+#include "render/shader.hpp"
+
+namespace catchlight::render {
+namespace {
+
+struct PlateFormat {
+  GLenum internal, type;
+  std::size_t channel_bytes;
+  bool clips;          ///< codes end at 1
+  float changed_code;  ///< a quarter of a code of 8 bits, or of 12 where there may be more
+};
+
+PlateFormat describe(Plate::Format format) {
+  switch (format) {
+    case Plate::Format::rgb_u8:
+      return {GL_RGB8, GL_UNSIGNED_BYTE, 1, true, 0.25f / 255};
+    case Plate::Format::rgb_u16:
+      return {GL_RGB16, GL_UNSIGNED_SHORT, 2, true, 0.25f / 4095};
+    case Plate::Format::rgb_f32:
+      return {GL_RGB32F, GL_FLOAT, 4, false, 0.25f / 4095};
+  }
+  throw Error("unknown plate format");
+}
+
+int mode_of(TransferFunction transfer) {
+  switch (transfer) {
+    case TransferFunction::srgb:
+      return TRANSFER_SRGB;
+    case TransferFunction::linear:
+      return TRANSFER_LINEAR;
+    case TransferFunction::gamma22:
+      return TRANSFER_GAMMA22;
+    case TransferFunction::gamma28:
+      return TRANSFER_GAMMA28;
+    case TransferFunction::pq:
+      return TRANSFER_PQ;
+    case TransferFunction::hlg:
+      return TRANSFER_HLG;
+  }
+  throw Error("unknown transfer function");
+}
+
+glm::ivec4 as_vector(const PixelRect& rect) {
+  return {rect.x, rect.y, rect.width, rect.height};
+}
+
+}  // namespace
+
+CompositePass::CompositePass(const std::string& shader_folder)
+    : program_(make_program({.vertex = "fullscreen.vert", .fragment = "composite.frag", .captured = {}}, shader_folder)),
+      no_attributes_(make_vertex_array("no attributes")),
+      black_(make_texture_2d("black", GL_RGBA8, 1, 1)) {
+  glClearTexImage(black_.id(), 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+}
+
+void CompositePass::upload(const Plate& plate) {
+  const PlateFormat format = describe(plate.format);
+  const std::size_t expected =
+      static_cast<std::size_t>(plate.rect.width) * static_cast<std::size_t>(plate.rect.height) * 3 * format.channel_bytes;
+  if (plate.pixels.size() != expected) {
+    throw Error("the plate's rectangle of " + std::to_string(plate.rect.width) + " x " + std::to_string(plate.rect.height) +
+                " pixels needs " + std::to_string(expected) + " bytes, got " + std::to_string(plate.pixels.size()));
+  }
+  if (plate_format_ != format.internal || plate.rect.width > plate_width_ || plate.rect.height > plate_height_) {
+    plate_width_ = roomy(std::max(plate.rect.width, plate_width_));
+    plate_height_ = roomy(std::max(plate.rect.height, plate_height_));
+    plate_format_ = format.internal;
+    plate_ = make_texture_2d("plate", format.internal, plate_width_, plate_height_);
+  }
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTextureSubImage2D(plate_.id(), 0, 0, 0, plate.rect.width, plate.rect.height, GL_RGB, format.type, plate.pixels.data());
+  rect_ = plate.rect;
+  clips_ = format.clips;
+  changed_code_ = format.changed_code;
+}
+
+void CompositePass::draw(const FrameView& view, const VirtualLayer& layer, const GlareSettings& glare, bool with_layers) {
+  const int width = roomy(rect_.width), height = roomy(rect_.height);
+  if (with_layers && !(layers_ && layers_->fits(width, height))) {
+    layers_ = std::make_unique<ColorTarget<kOutputs>>("layers", GL_RGBA32F, width, height);
+  }
+  if (!with_layers && !(output_ && output_->fits(width, height)))
+    output_ = std::make_unique<ColorTarget<1>>("composite", GL_RGBA32F, width, height);
+  drawn_framebuffer_ = with_layers ? layers_->framebuffer() : output_->framebuffer();
+
+  shader_interface::CompositeUniforms block{};
+  block.output_rect = as_vector(rect_);
+  block.virtual_rect = as_vector(layer.rect);
+  block.modes = {mode_of(view.color.transfer), clips_ ? 1 : 0, layer.glare ? 1 : 0, 0};
+  block.black = glm::vec4(view.black, 0);
+  block.changed_code.x = changed_code_;
+  block.glare = {static_cast<float>(glare.bloom_strength), static_cast<float>(glare.streak_strength), 0, 0};
+  if (layer.glare) block.glare_from_frame = layer.glare->texture_from_frame();
+  uniforms_.update(block);
+  uniforms_.bind(BINDING_COMPOSITE);
+
+  reset_state();
+  glBindFramebuffer(GL_FRAMEBUFFER, drawn_framebuffer_);
+  glViewport(0, 0, rect_.width, rect_.height);
+  glUseProgram(program_.id());
+  glBindVertexArray(no_attributes_.id());
+  glBindTextureUnit(TEXTURE_OBJECT, (layer.object ? *layer.object : black_).id());
+  glBindTextureUnit(TEXTURE_SHADOW, (layer.shadow ? *layer.shadow : black_).id());
+  glBindTextureUnit(TEXTURE_PLATE, plate_.id());
+  glBindTextureUnit(TEXTURE_BLOOM, (layer.glare ? layer.glare->bloom() : black_).id());
+  glBindTextureUnit(TEXTURE_STREAKS, (layer.glare ? layer.glare->streaks() : black_).id());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+std::vector<float> CompositePass::read() const {
+  return read_back(drawn_framebuffer_, 0, rect_.width, rect_.height, 4).data;
+}
+
+void CompositePass::read_layers(Layers& layers) const {
+  layers.plate = read_back(layers_->framebuffer(), 1, rect_.width, rect_.height, 3);
+  layers.object = read_back(layers_->framebuffer(), 2, rect_.width, rect_.height, 4);
+  layers.shadow = read_back(layers_->framebuffer(), 3, rect_.width, rect_.height, 3);
+  layers.glare = read_back(layers_->framebuffer(), 4, rect_.width, rect_.height, 3);
+}
+
+}  // namespace catchlight::render

@@ -1,0 +1,55 @@
+// Puts object, shadow and glare into the plate and reads the result back.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "render/compositor.hpp"
+#include "render/glare.hpp"
+#include "render/render_target.hpp"
+#include "shaders/interface.h"
+
+namespace catchlight::render {
+
+/// What is put into the plate. The textures hold the frame's pixels of `rect`; an empty rect leaves them unread.
+struct VirtualLayer {
+  PixelRect rect;
+  const GlTexture* object;
+  const GlTexture* shadow;
+  const GlarePass* glare;  ///< null: none drawn
+};
+
+class CompositePass {
+ public:
+  explicit CompositePass(const std::string& shader_folder);
+
+  /// Throws Error if the plate is not of its rectangle's size.
+  void upload(const Plate& plate);
+
+  /// Over the uploaded plate's rectangle.
+  void draw(const FrameView& view, const VirtualLayer& layer, const GlareSettings& glare, bool with_layers);
+
+  /// Codes and change flags, RGBA.
+  std::vector<float> read() const;
+
+  /// Plate, object, shadow and glare of the last draw with layers.
+  void read_layers(Layers& layers) const;
+
+ private:
+  static constexpr int kOutputs = 5;
+
+  GlProgram program_;
+  GlVertexArray no_attributes_;
+  UniformBuffer<shader_interface::CompositeUniforms> uniforms_{"composite"};
+  GlTexture plate_, black_;
+  GLenum plate_format_ = 0;
+  int plate_width_ = 0, plate_height_ = 0;
+  bool clips_ = true;
+  float changed_code_ = 0;
+  PixelRect rect_;
+  std::unique_ptr<ColorTarget<1>> output_;
+  std::unique_ptr<ColorTarget<kOutputs>> layers_;
+  GLuint drawn_framebuffer_ = 0;
+};
+
+}  // namespace catchlight::render

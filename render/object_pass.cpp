@@ -1,0 +1,108 @@
+#include "render/object_pass.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+
+#include "render/reflection_texture.hpp"
+#include "render/shader.hpp"
+
+namespace catchlight::render {
+namespace {
+
+constexpr int kBrdfTableSize = 64;
+
+/// Triangle numbers grouped by material.
+std::vector<std::size_t> triangles_by_material(const Mesh& mesh) {
+  std::vector<std::size_t> order(mesh.triangle_material.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t t) { return mesh.triangle_material[t]; });
+  return order;
+}
+
+void set_attribute(GLuint array, GLuint attribute, GLuint binding, std::size_t offset) {
+  glEnableVertexArrayAttrib(array, attribute);
+  glVertexArrayAttribFormat(array, attribute, 3, GL_FLOAT, GL_FALSE, static_cast<GLuint>(offset));
+  glVertexArrayAttribBinding(array, attribute, binding);
+}
+
+}  // namespace
+
+ObjectPass::ObjectPass(const Mesh& mesh, LitPoints vertices_lit, const ReflectionMap& reflections,
+                       const std::string& shader_folder)
+    : program_(make_program({.vertex = "object.vert", .fragment = "object.frag", .captured = {}}, shader_folder)),
+      exit_radiance_(std::move(vertices_lit)),
+      vertices_(make_buffer("object vertices", std::span<const Vertex>(mesh.vertices))),
+      vertex_array_(make_vertex_array("object")),
+      probe_(make_reflection_texture(reflections)),
+      brdf_table_(make_brdf_texture(kBrdfTableSize)) {
+  upload_mesh(mesh);
+  upload_materials(mesh);
+}
+
+void ObjectPass::upload_mesh(const Mesh& mesh) {
+  std::vector<std::uint32_t> indices;
+  indices.reserve(mesh.indices.size());
+  for (const std::size_t triangle : triangles_by_material(mesh)) {
+    const int material = mesh.triangle_material[triangle];
+    if (batches_.empty() || batches_.back().material != material)
+      batches_.push_back({static_cast<int>(indices.size()), 0, material});
+    indices.insert(indices.end(), &mesh.indices[3 * triangle], &mesh.indices[3 * triangle] + 3);
+    batches_.back().index_count += 3;
+  }
+  indices_ = make_buffer("object indices", std::span<const std::uint32_t>(indices));
+  const GLuint array = vertex_array_.id();
+  glVertexArrayElementBuffer(array, indices_.id());
+  glVertexArrayVertexBuffer(array, 0, vertices_.id(), 0, sizeof(Vertex));
+  glVertexArrayVertexBuffer(array, 1, exit_radiance_.radiance(), 0, sizeof(glm::vec3));
+  set_attribute(array, ATTRIBUTE_POSITION, 0, offsetof(Vertex, position_m));
+  set_attribute(array, ATTRIBUTE_NORMAL, 0, offsetof(Vertex, normal));
+  set_attribute(array, ATTRIBUTE_COLOR, 0, offsetof(Vertex, color));
+  set_attribute(array, ATTRIBUTE_EXIT_RADIANCE, 1, 0);
+}
+
+void ObjectPass::upload_materials(const Mesh& mesh) {
+  GLint alignment = 1;
+  glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &alignment);
+  material_stride_ = (static_cast<int>(sizeof(shader_interface::MaterialUniforms)) + alignment - 1) / alignment * alignment;
+  std::vector<std::byte> bytes(mesh.materials.size() * static_cast<std::size_t>(material_stride_));
+  for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
+    const Material& material = mesh.materials[i];
+    // Where nothing is mirrored face on, nothing is at grazing angles: f90 follows f0 below 2 % (Lagarde & de Rousiers 2014).
+    const float f90 = std::clamp(50.0f * material.dielectric_f0, 0.0f, 1.0f);
+    new (&bytes[i * static_cast<std::size_t>(material_stride_)]) shader_interface::MaterialUniforms{
+        {material.base_color, material.metallic}, {material.emissive, material.roughness}, {material.dielectric_f0, f90, 0, 0}};
+  }
+  materials_ = make_buffer("materials", std::span<const std::byte>(bytes));
+}
+
+void ObjectPass::draw(const ObjectTarget& target, const PixelRect& rect, int frame_width, int frame_height) const {
+  const float no_color[4] = {0, 0, 0, 0}, farthest = 0;
+  reset_state();
+  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
+  set_viewport(rect, frame_width, frame_height);
+  for (int i = 0; i < (target.with_layers() ? 3 : 1); ++i) glClearNamedFramebufferfv(target.framebuffer(), GL_COLOR, i, no_color);
+  glDepthMask(GL_TRUE);
+  glClearNamedFramebufferfv(target.framebuffer(), GL_DEPTH, 0, &farthest);
+
+  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_GREATER);
+  glFrontFace(GL_CW);  // the frame's top row is GL's lowest
+  glUseProgram(program_.id());
+  glBindVertexArray(vertex_array_.id());
+  glBindTextureUnit(TEXTURE_PROBE, probe_.id());
+  glBindTextureUnit(TEXTURE_BRDF, brdf_table_.id());
+  for (const Batch& batch : batches_) {
+    glBindBufferRange(GL_UNIFORM_BUFFER, BINDING_MATERIAL, materials_.id(),
+                      static_cast<GLintptr>(batch.material) * material_stride_, sizeof(shader_interface::MaterialUniforms));
+    const auto offset = static_cast<std::uintptr_t>(batch.first_index) * sizeof(std::uint32_t);
+    glDrawElements(GL_TRIANGLES, batch.index_count, GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset));
+  }
+  glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+  glDisable(GL_DEPTH_TEST);
+  target.resolve(rect.width, rect.height);
+}
+
+}  // namespace catchlight::render

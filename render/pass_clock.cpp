@@ -1,0 +1,31 @@
+#include "render/pass_clock.hpp"
+
+namespace catchlight::render {
+
+PassClock::Scope::Scope(PassClock& clock, const char* name) {
+  glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, name);
+  if (clock.queries_.size() == clock.names_.size()) clock.queries_.push_back(make_query(GL_TIME_ELAPSED));
+  glBeginQuery(GL_TIME_ELAPSED, clock.queries_[clock.names_.size()].id());
+  clock.names_.emplace_back(name);
+}
+
+PassClock::Scope::~Scope() {
+  glEndQuery(GL_TIME_ELAPSED);
+  glPopDebugGroup();
+}
+
+void PassClock::begin_frame() {
+  names_.clear();
+}
+
+std::vector<PassTime> PassClock::times() const {
+  std::vector<PassTime> result;
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    GLuint64 elapsed_ns = 0;
+    glGetQueryObjectui64v(queries_[i].id(), GL_QUERY_RESULT, &elapsed_ns);
+    result.push_back({names_[i], static_cast<double>(elapsed_ns) * 1e-6});
+  }
+  return result;
+}
+
+}  // namespace catchlight::render

@@ -1,0 +1,14 @@
+// What the compositor refuses: data that do not fit together or are not numbers.
+#pragma once
+
+#include "render/compositor.hpp"
+
+namespace catchlight::render {
+
+/// The scene itself; throws Error saying which parts disagree.
+const RenderScene& checked(const RenderScene& scene);
+
+/// Throws Error naming what is not finite or out of range.
+void check_view(const FrameView& view);
+
+}  // namespace catchlight::render

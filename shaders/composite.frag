@@ -1,0 +1,56 @@
+// Object, shadow and glare put into the plate in linear light (Debevec 1998; premultiplied over), then coded as the plate was.
+#version 450 core
+#include "interface.h"
+#include "color.glsl"
+
+layout(binding = TEXTURE_OBJECT) uniform sampler2D object;    // premultiplied exposed linear
+layout(binding = TEXTURE_SHADOW) uniform sampler2D shadow;    // ratio
+layout(binding = TEXTURE_PLATE) uniform sampler2D plate;      // codes
+layout(binding = TEXTURE_BLOOM) uniform sampler2D bloom;      // exposed linear
+layout(binding = TEXTURE_STREAKS) uniform sampler2D streaks;
+
+layout(location = 0) out vec4 result;  // codes; alpha 1 where changed
+// Layers, linear: result = plate * shadow * (1 - object.a) + object + glare.
+layout(location = 1) out vec4 plate_layer;
+layout(location = 2) out vec4 object_layer;
+layout(location = 3) out vec4 shadow_layer;
+layout(location = 4) out vec4 glare_layer;
+
+vec3 finite_or_zero(vec3 v) { return mix(v, vec3(0.0), bvec3(uvec3(isnan(v)) | uvec3(isinf(v)))); }
+
+vec3 glare_at(ivec2 pixel) {
+  if (composite.modes.z == 0) return vec3(0.0);
+  vec2 centre = vec2(pixel) + 0.5;
+  return composite.glare.x * texture(bloom, centre * composite.glare_from_frame.xy).rgb +
+         composite.glare.y * texture(streaks, centre * composite.glare_from_frame.zw).rgb;
+}
+
+void main() {
+  ivec2 local = ivec2(gl_FragCoord.xy), pixel = local + composite.output_rect.xy;
+  ivec2 in_virtual = pixel - composite.virtual_rect.xy;
+  bool reached = all(greaterThanEqual(in_virtual, ivec2(0))) && all(lessThan(in_virtual, composite.virtual_rect.zw));
+  vec4 over = reached ? texelFetch(object, in_virtual, 0) : vec4(0.0);
+  vec3 ratio = reached ? texelFetch(shadow, in_virtual, 0).rgb : vec3(1.0);
+  vec3 glare = glare_at(pixel);
+  vec3 code = texelFetch(plate, local, 0).rgb;
+
+  // Black is light the lens scatters: no shadow takes it away, and the object stands behind it too.
+  int transfer = composite.modes.x;
+  vec3 background = finite_or_zero(linear_from_code(transfer, code));
+  vec3 black = composite.black.rgb;
+  vec3 shadowed = max(background - black, 0.0) * ratio + min(background, black);
+  over.rgb += over.a * black;
+  vec3 light = shadowed * (1.0 - over.a) + over.rgb + glare;
+
+  bool untouched = over.a == 0.0 && ratio == vec3(1.0) && glare == vec3(0.0);
+  vec3 new_code = untouched ? code : code_from_linear(transfer, light);
+  if (composite.modes.y != 0) new_code = clamp(new_code, 0.0, 1.0);
+  // A NaN in the plate compares as changed once something virtual covers it.
+  bool changed = !untouched && !all(lessThanEqual(abs(new_code - code), composite.changed_code.xxx));
+  result = vec4(new_code, changed ? 1.0 : 0.0);
+
+  plate_layer = vec4(background, 1.0);
+  object_layer = over;
+  shadow_layer = vec4(mix(vec3(1.0), shadowed / background, greaterThan(background, vec3(0.0))), 1.0);
+  glare_layer = vec4(glare, 1.0);
+}
