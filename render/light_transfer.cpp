@@ -9,7 +9,11 @@ namespace catchlight::render {
 
 LightTransfer::LightTransfer(const std::string& shader_folder)
     : program_(make_program({.vertex = "transfer.vert", .fragment = {}, .captured = {"transferred"}}, shader_folder)),
-      no_attributes_(make_vertex_array("no attributes")) {}
+      no_attributes_(make_vertex_array("no attributes")),
+      no_pixels_(make_framebuffer("no pixels")) {
+  glNamedFramebufferParameteri(no_pixels_.id(), GL_FRAMEBUFFER_DEFAULT_WIDTH, 1);
+  glNamedFramebufferParameteri(no_pixels_.id(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, 1);
+}
 
 void LightTransfer::set_light(const ShRgb& light_linear) {
   coefficients_ = static_cast<int>(std::min<std::size_t>(light_linear.size(), MAX_LIGHT_COEFFICIENTS));
@@ -21,6 +25,7 @@ void LightTransfer::set_light(const ShRgb& light_linear) {
 
 void LightTransfer::capture(GLuint target, GLintptr offset, int points) const {
   constexpr GLsizeiptr kPointBytes = sizeof(glm::vec3);
+  glBindFramebuffer(GL_FRAMEBUFFER, no_pixels_.id());
   uniforms_.bind(BINDING_LIGHT);
   glUseProgram(program_.id());
   glBindVertexArray(no_attributes_.id());

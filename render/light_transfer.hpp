@@ -25,6 +25,8 @@ class LightTransfer {
  private:
   GlProgram program_;
   GlVertexArray no_attributes_;
+  GlFramebuffer
+      no_pixels_;  ///< GL wants a complete framebuffer even where nothing is drawn, and a context without a window has none
   UniformBuffer<shader_interface::LightUniforms> uniforms_{"light"};
   int coefficients_ = 0;
 };
