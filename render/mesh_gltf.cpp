@@ -75,7 +75,6 @@ class Importer {
   Importer(const Document& document, const WarningHandler& warn) : document_(document), warn_(warn) {
     for (const tinygltf::Material& material : document.model.materials) mesh_.materials.push_back(gltf::material_of(material));
     if (mesh_.materials.size() >= 65535) throw Error(document.path + ": more than 65535 materials");
-    mesh_.materials.push_back(gltf::material_of(tinygltf::Material()));  // of primitives that name none: glTF's default
   }
 
   Mesh run() {
@@ -133,9 +132,15 @@ class Importer {
         throw Error(document_.path + ": a triangle names vertex " + std::to_string(corner) + " of " + std::to_string(count));
       mesh_.indices.push_back(static_cast<std::uint32_t>(base + corner));
     }
-    const int none = static_cast<int>(mesh_.materials.size()) - 1;
-    const int material = primitive.material >= 0 && primitive.material < none ? primitive.material : none;
-    mesh_.triangle_material.insert(mesh_.triangle_material.end(), corners.size() / 3, static_cast<std::uint16_t>(material));
+    mesh_.triangle_material.insert(mesh_.triangle_material.end(), corners.size() / 3, material_index(primitive.material));
+  }
+
+  // Primitives that name no material share glTF's default one, added when first needed.
+  std::uint16_t material_index(int named) {
+    const std::size_t count = document_.model.materials.size();
+    if (named >= 0 && static_cast<std::size_t>(named) < count) return static_cast<std::uint16_t>(named);
+    if (mesh_.materials.size() == count) mesh_.materials.push_back(gltf::material_of(tinygltf::Material()));
+    return static_cast<std::uint16_t>(count);
   }
 
   std::vector<float> read(const std::string& attribute, const tinygltf::Primitive& primitive, int components) const {

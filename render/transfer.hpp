@@ -14,10 +14,10 @@ namespace catchlight::render {
 
 struct TransferOptions {
   int bands = 6;
-  int rays = 512;           ///< a vertex, over the hemisphere
-  int bounces = 0;          ///< interreflections within the object
+  int rays = 512;   ///< a vertex, over the hemisphere
+  int bounces = 0;  ///< interreflections within the object
   std::uint32_t seed = 1;
-  int threads = 0;          ///< 0: all cores. The result does not depend on it.
+  int threads = 0;  ///< 0: all cores. The result does not depend on it.
 };
 
 /// The part of the receiving plane (tag z = 0) that the object's shadow may reach, as a regular grid of points.
@@ -26,22 +26,24 @@ struct ReceiverGrid {
   int columns = 0, rows = 0;     ///< points; 0: no receiver
 };
 
-/// All in the tag frame. Vertex v's exit radiance per channel = sum_i light_i * object[v * n^2 + i]: albedo (of the diffuse part) included.
-/// Receiver point p's irradiance relative to the unshadowed one = dot(light, receiver[p]) / dot(light, receiver_unshadowed): that ratio
-/// multiplies the real surface (Debevec 1998); receiver values are normalised for a white (albedo 1) surface.
+/// All in the tag frame. Vertex v's exit radiance per channel = sum_i light_i * object[v * n^2 + i]: albedo (of the diffuse part)
+/// included. Receiver point p's irradiance relative to the unshadowed one = dot(light, receiver[p]) / dot(light,
+/// receiver_unshadowed): that ratio multiplies the real surface (Debevec 1998); receiver values are normalised for a white
+/// (albedo 1) surface.
 struct Transfer {
   int bands = 0;
-  std::vector<glm::vec3> object;               ///< vertices * bands^2
+  std::vector<glm::vec3> object;  ///< vertices * bands^2
   ReceiverGrid grid;
-  std::vector<glm::vec3> receiver;             ///< rows * columns * bands^2, row-major from min
-  std::vector<float> receiver_unshadowed;      ///< bands^2, the closed form for normal +z
+  std::vector<glm::vec3> receiver;         ///< rows * columns * bands^2, row-major from min
+  std::vector<float> receiver_unshadowed;  ///< bands^2, the closed form for normal +z
 };
 
 /// A grid that covers where the shadow matters: the mesh's footprint widened with its height.
 ReceiverGrid receiver_grid_for(const Mesh& mesh_tag, int points_across);
 
 /// `mesh_tag` is in the tag frame. Throws Error for a mesh without triangles.
-Transfer bake_transfer(const Mesh& mesh_tag, const ReceiverGrid& grid, const TransferOptions& options, const ProgressHandler& progress);
+Transfer bake_transfer(const Mesh& mesh_tag, const ReceiverGrid& grid, const TransferOptions& options,
+                       const ProgressHandler& progress);
 
 /// Key of everything the bake depends on (geometry, materials, grid, options, format version): a hexadecimal string.
 std::string transfer_key(const Mesh& mesh_tag, const ReceiverGrid& grid, const TransferOptions& options);
@@ -49,8 +51,8 @@ std::string transfer_key(const Mesh& mesh_tag, const ReceiverGrid& grid, const T
 /// bake_transfer behind a cache folder (default: $XDG_CACHE_HOME/catchlight). A damaged or foreign cache file is baked anew;
 /// an unwritable folder only costs a warning. `cache_hit` (optional) says whether it was read.
 Transfer load_or_bake_transfer(const Mesh& mesh_tag, const ReceiverGrid& grid, const TransferOptions& options,
-                               const std::string& cache_folder, const ProgressHandler& progress,
-                               const WarningHandler& warn, bool* cache_hit = nullptr);
+                               const std::string& cache_folder, const ProgressHandler& progress, const WarningHandler& warn,
+                               bool* cache_hit = nullptr);
 
 /// $XDG_CACHE_HOME/catchlight or ~/.cache/catchlight.
 std::string default_cache_folder();

@@ -1,0 +1,30 @@
+// Low-discrepancy directions over a hemisphere, density cos / pi.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+
+namespace catchlight::render {
+
+/// Mixes all bits of x (a permutation of 32-bit numbers: Wellons' "lowbias32").
+std::uint32_t mix_bits(std::uint32_t x);
+
+/// Same bits, same seed: the rays of vertices doubled along a seam are alike.
+std::uint32_t seed_of(const glm::vec3& position, const glm::vec3& normal, std::uint32_t seed);
+
+/// Point k of Sobol's sequence in the unit square, Owen-scrambled by `seed` (Burley, "Practical Hash-based Owen Scrambling", JCGT
+/// 2020).
+glm::dvec2 scrambled_sobol(std::uint32_t k, std::uint32_t seed);
+
+/// Turns the z axis towards `normal`.
+class Hemisphere {
+ public:
+  explicit Hemisphere(const glm::vec3& normal);
+  glm::vec3 direction(const glm::dvec2& square) const;
+  glm::mat3 frame() const { return glm::mat3(glm::dmat3(tangent_, bitangent_, normal_)); }
+
+ private:
+  glm::dvec3 tangent_, bitangent_, normal_;
+};
+
+}  // namespace catchlight::render
