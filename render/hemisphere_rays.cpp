@@ -75,4 +75,10 @@ glm::vec3 Hemisphere::direction(const glm::dvec2& square) const {
                    normal_ * std::sqrt(std::max(0.0, 1 - square.x)));
 }
 
+glm::vec3 Hemisphere::cone_direction(const glm::dvec2& square, double cos_cone) const {
+  const double height = 1 - square.x * (1 - cos_cone), radius = std::sqrt(std::max(0.0, 1 - height * height));
+  const double phi = 2 * std::numbers::pi * square.y;
+  return glm::vec3(tangent_ * (radius * std::cos(phi)) + bitangent_ * (radius * std::sin(phi)) + normal_ * height);
+}
+
 }  // namespace catchlight::render

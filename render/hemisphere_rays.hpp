@@ -1,4 +1,4 @@
-// Low-discrepancy directions over a hemisphere, density cos / pi.
+// Low-discrepancy directions over a hemisphere or a cone.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +16,12 @@ std::uint32_t seed_of(const glm::vec3& position, const glm::vec3& normal, std::u
 /// 2020).
 glm::dvec2 scrambled_sobol(std::uint32_t k, std::uint32_t seed);
 
-/// Turns the z axis towards `normal`.
+/// Directions around `normal`.
 class Hemisphere {
  public:
   explicit Hemisphere(const glm::vec3& normal);
-  glm::vec3 direction(const glm::dvec2& square) const;
+  glm::vec3 direction(const glm::dvec2& square) const;                        ///< density cos / pi
+  glm::vec3 cone_direction(const glm::dvec2& square, double cos_cone) const;  ///< uniform within the angle of that cosine
   glm::mat3 frame() const { return glm::mat3(glm::dmat3(tangent_, bitangent_, normal_)); }
 
  private:

@@ -69,7 +69,9 @@ class Baker {
         scene_(mesh),
         albedo_(diffuse_albedos(mesh)) {
     const Bounds bounds = bounds_of(mesh);
-    lift_m_ = kLift * glm::distance(bounds.min_m, bounds.max_m);
+    middle_m_ = (bounds.min_m + bounds.max_m) * 0.5f;
+    radius_m_ = glm::distance(bounds.min_m, bounds.max_m) * 0.5f;
+    lift_m_ = kLift * 2 * radius_m_;
   }
 
   Transfer bake(const ReceiverGrid& grid) {
@@ -136,46 +138,66 @@ class Baker {
   void bake_bounce(std::size_t v, const std::vector<glm::vec3>& direct, const std::vector<glm::vec3>& before,
                    std::span<glm::vec3> out) const {
     if (albedo_[v] == glm::vec3(0)) return;
+    const float share = 1.0f / static_cast<float>(options_.rays);
     std::array<glm::vec3, kMaxShBands * kMaxShBands> arriving{};
     for_rays(mesh_.vertices[v].position_m, mesh_.vertices[v].normal, [&](const glm::vec3& origin_m, const glm::vec3& direction) {
-      if (const auto hit = scene_.closest_hit(origin_m, direction)) add_exit_radiance(*hit, before, arriving);
+      if (const auto hit = scene_.closest_hit(origin_m, direction)) add_exit_radiance(*hit, before, share, arriving);
     });
-    const float share = 1.0f / static_cast<float>(options_.rays);
-    for (int i = 0; i < count_; ++i) out[i] = direct[v * count_ + i] + albedo_[v] * arriving[i] * share;
+    for (int i = 0; i < count_; ++i) out[i] = direct[v * count_ + i] + albedo_[v] * arriving[i];
   }
 
-  void add_exit_radiance(const RayHit& hit, const std::vector<glm::vec3>& object, std::span<glm::vec3> sum) const {
+  void add_exit_radiance(const RayHit& hit, const std::vector<glm::vec3>& object, float share, std::span<glm::vec3> sum) const {
     if (!hit.front_facing) return;  // the inside of a solid is dark
-    const std::array<float, 3> weight{1 - hit.u - hit.v, hit.u, hit.v};
+    const std::array<float, 3> weight{share * (1 - hit.u - hit.v), share * hit.u, share * hit.v};
     for (int k = 0; k < 3; ++k) {
       const glm::vec3* corner = &object[static_cast<std::size_t>(mesh_.indices[3 * hit.triangle + k]) * count_];
       for (int i = 0; i < count_; ++i) sum[i] += weight[k] * corner[i];
     }
   }
 
-  // Returns whether the point is inside the object: more than half of what its rays see are back faces.
-  bool bake_receiver(std::size_t p, Transfer& transfer) const {
-    const ReceiverGrid& grid = transfer.grid;
+  glm::vec3 receiver_point(const ReceiverGrid& grid, std::size_t p) const {
     const auto place = [](float from, float to, std::size_t i, int count) {
       return count > 1 ? from + (to - from) * static_cast<float>(i) / static_cast<float>(count - 1) : from;
     };
-    const glm::vec3 position_m(place(grid.min_m.x, grid.max_m.x, p % grid.columns, grid.columns),
-                               place(grid.min_m.y, grid.max_m.y, p / grid.columns, grid.rows), 0.0f);
-    Basis basis, blocked{};
-    std::array<glm::vec3, kMaxShBands * kMaxShBands> arriving{};
-    int inside = 0;
-    for_rays(position_m, glm::vec3(0, 0, 1), [&](const glm::vec3& origin_m, const glm::vec3& direction) {
+    return {place(grid.min_m.x, grid.max_m.x, p % grid.columns, grid.columns),
+            place(grid.min_m.y, grid.max_m.y, p / grid.columns, grid.rows), lift_m_};
+  }
+
+  // visit(direction, weight): sum of weight * f = (1 / pi) integral of max(z, 0) f dw for any f that is 0 where the object is
+  // not. From afar the object is small in the sky: there the rays go into the cone around its bounding sphere, uniformly.
+  template <typename Visit>
+  void for_receiver_rays(const glm::vec3& origin_m, const Visit& visit) const {
+    const std::uint32_t seed = seed_of(origin_m, glm::vec3(0, 0, 1), options_.seed);
+    const glm::vec3 to_middle_m = middle_m_ - origin_m;
+    const double sin_cone = radius_m_ / glm::length(to_middle_m);
+    const bool narrow = sin_cone < 0.7;
+    const double cos_cone = narrow ? std::sqrt(1 - sin_cone * sin_cone) : 0;
+    const Hemisphere hemisphere(narrow ? to_middle_m : glm::vec3(0, 0, 1));
+    for (int k = 0; k < options_.rays; ++k) {
+      const glm::dvec2 square = scrambled_sobol(k, seed);
+      const glm::vec3 direction = narrow ? hemisphere.cone_direction(square, cos_cone) : hemisphere.direction(square);
+      const double weight = narrow ? 2 * (1 - cos_cone) * std::max(direction.z, 0.0f) : 1.0;
+      if (weight > 0) visit(direction, static_cast<float>(weight / options_.rays));
+    }
+  }
+
+  // Returns whether the point is inside the object: more than half of what its rays see are back faces.
+  bool bake_receiver(std::size_t p, Transfer& transfer) const {
+    const glm::vec3 origin_m = receiver_point(transfer.grid, p);
+    Basis basis;
+    std::array<glm::vec3, kMaxShBands * kMaxShBands> change{};
+    float inside = 0;
+    for_receiver_rays(origin_m, [&](const glm::vec3& direction, float weight) {
       const auto hit = scene_.closest_hit(origin_m, direction);
       if (!hit) return;
-      inside += !hit->front_facing;
+      if (!hit->front_facing) inside += weight;
       evaluate_sh(direction, options_.bands, std::span(basis).first(count_));
-      for (int i = 0; i < count_; ++i) blocked[i] += basis[i];
-      if (options_.bounces > 0) add_exit_radiance(*hit, transfer.object, arriving);
+      for (int i = 0; i < count_; ++i) change[i] -= weight * basis[i];
+      if (options_.bounces > 0) add_exit_radiance(*hit, transfer.object, weight, change);
     });
-    const float share = 1.0f / static_cast<float>(options_.rays);
     const std::span<glm::vec3> out = coefficients(transfer.receiver, p);
-    for (int i = 0; i < count_; ++i) out[i] = transfer.receiver_unshadowed[i] - blocked[i] * share + arriving[i] * share;
-    return 2 * inside > options_.rays;
+    for (int i = 0; i < count_; ++i) out[i] = transfer.receiver_unshadowed[i] + change[i];
+    return inside > 0.5f;
   }
 
   // Points inside the object are never seen, but the points beside it are blended with them along the contact line: those next
@@ -233,7 +255,8 @@ class Baker {
   int count_;
   RayScene scene_;
   std::vector<glm::vec3> albedo_;
-  float lift_m_ = 0;
+  glm::vec3 middle_m_{0};  // of a sphere around the object
+  float radius_m_ = 0, lift_m_ = 0;
   double done_ = 0, total_ = 1;
 };
 
