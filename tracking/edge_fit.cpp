@@ -141,7 +141,7 @@ std::optional<EdgeFit> fit_edge(std::span<const EdgePixel> pixels) {
   const double contrast = std::abs(2 * p(kHalfStepStart));
   if (!(contrast > 0)) return std::nullopt;
   double noise = 0;
-  for (const double floor : {0.05, 0.002}) {  // shares of the contrast: the first pass is lenient, far from the solution
+  for (const double floor : {0.05, 0.01}) {  // shares of the contrast: the first pass is lenient, far from the solution
     noise = robust_scale(p, pixels);
     p = minimize(p, pixels, {2.4 * std::max(noise, floor * contrast)});
   }

@@ -18,7 +18,7 @@ std::array<glm::dvec3, 4> tag_corners_m(double size_m);
 
 /// Infinitesimal plane-based pose estimation (Collins & Bartoli 2014), each solution refined by Levenberg-Marquardt on the
 /// reprojection error in pixels. At most two, the better first; only those with the tag in front of the camera and its
-/// printed face towards it. Empty for corners that no such pose explains.
+/// printed face towards it; one where both solutions are the same. Empty for corners that no such pose explains.
 std::vector<PoseHypothesis> planar_poses(const CameraModel& camera, const std::array<glm::dvec2, 4>& corners_px, double size_m);
 
 }  // namespace catchlight::tracking
