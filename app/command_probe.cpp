@@ -69,6 +69,8 @@ void print_info(const ProbeArguments& arguments, Log& log) {
 
 void convert(const ProbeArguments& arguments, Log& log) {
   const render::ProbeLayout layout = render::probe_layout_from_name(arguments.layout_out);
+  if (!arguments.output.ends_with(".exr") && !arguments.output.ends_with(".hdr"))
+    throw UsageError(arguments.output + ": expected a name that ends in .exr or .hdr");
   PendingFile output(arguments.output, arguments.overwrite);
   render::save_probe(output.pending_path(), render::convert(load(arguments, log), layout, arguments.width_px));
   output.commit();

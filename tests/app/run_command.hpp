@@ -1,0 +1,19 @@
+// Runs the built program as users do.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace catchlight::tests {
+
+struct CommandResult {
+  int exit_code = -1;  ///< -1: ended by a signal
+  std::string output, error;
+};
+
+/// `catchlight` with these arguments; `environment` is set on top of ours.
+CommandResult run_catchlight(const std::vector<std::string>& arguments,
+                             const std::map<std::string, std::string>& environment = {});
+
+}  // namespace catchlight::tests
