@@ -3,43 +3,35 @@
 
 #include <glm/glm.hpp>
 #include <optional>
-#include <string>
 
+#include "app/scene_settings.hpp"
 #include "tracking/photometry.hpp"
 
 namespace catchlight::app {
 
-/// Exposed linear value (1 = sensor white) = gain * radiance + black, per channel.
-struct FrameExposure {
-  glm::dvec3 gain{1.0};
-  glm::dvec3 black{0.0};
+/// How white paper on the tag comes out: exposed linear value (1 = sensor white) = white * albedo + black, per channel.
+/// Independent of the probe, so that a track holds for any light put to it.
+struct TagExposure {
+  glm::dvec3 white{0.75};  ///< until the tag has been seen: paper of albedo 0.8 at 0.6, as cameras meter it
+  glm::dvec3 black{0.0};   ///< flare and black level
 };
 
-/// `match`: the tag's white and black cells are surfaces of known albedo under the probe's own irradiance E, so
-///   white = gain * white_albedo * E/pi + black,   black_cell = gain * black_albedo * E/pi + black.
-/// Two equations, two unknowns per channel. A frame without a trustworthy tag keeps the last answer; nothing is accumulated, so
-/// nothing drifts. `fixed`: gain 2^ev, no black.
+/// Two equations, two unknowns per channel: the white cells and the black cells are surfaces of known albedo in the same light.
+/// A frame without a trustworthy tag keeps the last answer; nothing is accumulated, so nothing drifts.
 class ExposureMatcher {
  public:
-  struct Settings {
-    bool match = true;
-    double ev = 0;  ///< added on top, in stops
-    double white_albedo = 0.8, black_albedo = 0.04;
-  };
+  ExposureMatcher(double white_albedo, double black_albedo) : white_albedo_(white_albedo), black_albedo_(black_albedo) {}
 
-  /// `tag_irradiance_over_pi`: radiance of a white Lambertian surface in the tag's place.
-  ExposureMatcher(const Settings& settings, const glm::dvec3& tag_irradiance_over_pi);
-
-  FrameExposure update(const std::optional<tracking::TagPhotometry>& photometry);
-
-  /// False until the first frame that showed a trustworthy tag (always true for `fixed`).
-  bool matched() const { return matched_; }
+  TagExposure update(const std::optional<tracking::TagPhotometry>& photometry);
 
  private:
-  Settings settings_;
-  glm::dvec3 tag_irradiance_over_pi_;
-  FrameExposure current_;
-  bool matched_ = false;
+  double white_albedo_, black_albedo_;
+  TagExposure current_;
 };
+
+/// Exposed linear value of one unit of the probe's radiance. `match`: the paper under the probe's own irradiance E must come out
+/// as it did, white / (E/pi); `fixed`: 1. Both times 2^ev.
+glm::dvec3 exposure_gain(const SceneSettings::Exposure& settings, const glm::dvec3& white,
+                         const glm::dvec3& tag_irradiance_over_pi);
 
 }  // namespace catchlight::app

@@ -4,9 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "app/exposure.hpp"
 #include "app/media/frame.hpp"
-#include "app/scene_file.hpp"
+#include "app/scene_settings.hpp"
 #include "app/track_file.hpp"
 
 namespace catchlight::app {
@@ -19,11 +18,11 @@ class FrameTrack {
   virtual TrackRow row(const Frame& frame) = 0;
 };
 
-/// Detects the tag and measures it. `tag_irradiance_over_pi`: see ExposureMatcher.
-std::unique_ptr<FrameTrack> make_tag_track(const CameraModel& camera, const SceneSettings& scene,
-                                           const glm::dvec3& tag_irradiance_over_pi);
+/// Detects the tag and measures its photometry.
+std::unique_ptr<FrameTrack> make_tag_track(const CameraModel& camera, const SceneSettings& scene);
 
-/// Frames that the file does not have count as lost.
-std::unique_ptr<FrameTrack> make_recorded_track(std::vector<TrackRow> rows);
+/// Frames that `rows` does not have count as lost. Rows without exposure (bare poses) are measured in the pictures.
+std::unique_ptr<FrameTrack> make_recorded_track(std::vector<TrackRow> rows, const CameraModel& camera,
+                                                const SceneSettings& scene);
 
 }  // namespace catchlight::app

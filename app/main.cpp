@@ -5,6 +5,9 @@ namespace {
 using namespace catchlight::app;
 
 constexpr Command kCommands[] = {
+    {"overlay", "Put the virtual objects into footage", set_up_overlay},
+    {"track", "Find the tag and its exposure in footage; no drawing", set_up_track},
+    {"replay", "Overlay recordings whose truth is known and say what drifted", set_up_replay},
     {"bake", "Precompute how light travels over a recording's objects", set_up_bake},
     {"probe", "Look at light probes and convert them", set_up_probe},
     {"info", "Versions, libraries and graphics: what a bug report needs", set_up_info},

@@ -163,6 +163,7 @@ class Reader {
     row.found = found();
     row.state = state(row.found);
     if (row.found) row.camera_from_tag = pose();
+    row.has_exposure = cell("exposure_r") != nullptr;
     row.exposure = rgb_or("exposure", row.exposure);
     row.black = rgb_or("black", row.black);
     row.corner_rms_px = number_or("corner_rms_px", 0);

@@ -19,14 +19,15 @@ struct TrackRow {
   bool found = false;
   RigidTransform camera_from_tag;
   tracking::TrackState state = tracking::TrackState::lost;
-  glm::dvec3 exposure{1.0};  ///< exposed linear value = exposure * radiance + black
+  bool has_exposure = false;  ///< false: a bare pose, as poses.csv has them
+  glm::dvec3 exposure{1.0};   ///< exposed linear value of white paper on the tag, per unit of albedo (docs/conventions.md)
   glm::dvec3 black{0.0};
   double corner_rms_px = 0;
   double ambiguity = 0;
 };
 
 /// Columns are found by name; `frame` is needed, and r00 .. tz unless every row has found 0. A file without the others (known
-/// poses) reads too: found, tracking, exposure 1. Throws Error "file:line: ..." for what is malformed, not a rotation (more than
+/// poses) reads too: found, tracking, without exposure. Throws Error "file:line: ..." for what is malformed, not a rotation (more than
 /// 1e-3 off orthonormal or mirrored), not finite, or not in rising order of frames.
 std::vector<TrackRow> read_track_file(const std::string& path);
 

@@ -1,0 +1,71 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "app/commands.hpp"
+#include "app/output_file.hpp"
+#include "app/overlay.hpp"
+
+namespace catchlight::app {
+
+namespace {
+
+struct Options {
+  std::string recording, output, track_in, track_out, report, frames;
+  RecordingOverrides overrides;
+  SinkOptions sink;
+};
+
+std::unique_ptr<FrameTrack> open_track(const Options& options, const CameraModel& camera, const SceneSettings& scene) {
+  if (options.track_in.empty()) return make_tag_track(camera, scene);
+  return make_recorded_track(read_track_file(options.track_in), camera, scene);
+}
+
+void overlay(const Options& options, Context& context) {
+  const FrameRange range = options.frames.empty() ? FrameRange{} : parse_frame_range(options.frames);
+  if (!options.track_out.empty()) check_output_path(options.track_out, options.sink.overwrite);
+  if (!options.report.empty()) check_output_path(options.report, options.sink.overwrite);
+  const Recording recording = open_recording(options.recording, options.overrides);
+  const std::unique_ptr<MediaSource> source = MediaSource::open(recording.footage);
+  const CameraModel camera = camera_for_footage(recording, source->info().width_px, source->info().height_px);
+  const std::unique_ptr<FrameTrack> track = open_track(options, camera, recording.scene);
+  const std::unique_ptr<FrameOutput> output = open_output(options.output, recording.footage, *source, options.sink);
+
+  Report report;
+  Stage stage = build_stage(recording.scene, context.log, report);
+  const OverlayResult result = run_overlay(*source, *track, stage, recording.scene, camera, *output, range, context.log, report);
+
+  report.warnings = context.log.warnings();
+  if (!options.track_out.empty()) write_track_file(options.track_out, result.rows, options.sink.overwrite);
+  if (!options.report.empty()) write_report(options.report, report, options.sink.overwrite);
+  context.log.info(report_summary(report));
+  if (result.damage) {
+    context.log.error(*result.damage);
+    context.exit_code = 1;
+  }
+}
+
+}  // namespace
+
+void set_up_overlay(CLI::App& command, Context& context) {
+  const auto options = std::make_shared<Options>();
+  add_recording_options(command, options->recording, options->overrides);
+  command
+      .add_option("-o,--output", options->output,
+                  "out.mp4, .mkv, .mov (H.264); .avi, .nut (FFV1); %04d.png; %04d.exr (layers); - (y4m on stdout)")
+      ->required();
+  command.add_flag("-y,--overwrite", options->sink.overwrite, "replace existing outputs");
+  command.add_option("--frames", options->frames,
+                     "only frames A:B, numbered from 0 (image sequences: by their own numbers), B left out");
+  command.add_option("--track", options->track_in, "poses from this track file instead of from the pictures");
+  command.add_option("--track-out", options->track_out, "write the track, CSV");
+  command.add_option("--report", options->report, "write what was done and how long it took, JSON");
+  command.add_option("--codec", options->sink.codec, "h264 or ffv1, instead of what the extension says")
+      ->check(CLI::IsMember({"h264", "ffv1"}));
+  command.add_option("--crf", options->sink.crf, "H.264 quality, 0 (lossless) to 51")
+      ->check(CLI::Range(0, 51))
+      ->capture_default_str();
+  command.add_option("--preset", options->sink.preset, "H.264 speed, ultrafast to veryslow")->capture_default_str();
+  command.callback([options, &context] { overlay(*options, context); });
+}
+
+}  // namespace catchlight::app

@@ -1,0 +1,55 @@
+#include "app/linear_patch.hpp"
+
+#include <cstring>
+
+namespace catchlight::app {
+
+namespace {
+
+template <typename Code>
+void append_linear(const render::Plate& plate, TransferFunction transfer, double full_scale, std::vector<float>& linear) {
+  const std::size_t count = plate.pixels.size() / sizeof(Code);
+  linear.resize(count);
+  std::vector<float> table;
+  if constexpr (sizeof(Code) == 1) {
+    table.resize(256);
+    for (int code = 0; code < 256; ++code) table[code] = static_cast<float>(linear_from_code(transfer, code / full_scale));
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    Code code;
+    std::memcpy(&code, &plate.pixels[i * sizeof(Code)], sizeof(Code));
+    if constexpr (sizeof(Code) == 1)
+      linear[i] = table[code];
+    else
+      linear[i] = static_cast<float>(linear_from_code(transfer, static_cast<double>(code) / full_scale));
+  }
+}
+
+}  // namespace
+
+std::vector<float> linear_rgb(const Frame& frame, const PixelRect& rect) {
+  const render::Plate plate = frame.rgb(rect);
+  const render::PlateColor color = frame.color();
+  std::vector<float> linear;
+  switch (plate.format) {
+    case render::Plate::Format::rgb_u8:
+      append_linear<std::uint8_t>(plate, color.transfer, 255, linear);
+      break;
+    case render::Plate::Format::rgb_u16:
+      append_linear<std::uint16_t>(plate, color.transfer, 65535, linear);
+      break;
+    case render::Plate::Format::rgb_f32:
+      append_linear<float>(plate, color.transfer, 1, linear);
+      break;
+  }
+  if (color.plate_from_rec709 != glm::mat3(1.0f)) {
+    const glm::mat3 rec709_from_plate = glm::inverse(color.plate_from_rec709);
+    for (std::size_t i = 0; i + 2 < linear.size(); i += 3) {
+      const glm::vec3 rgb = rec709_from_plate * glm::vec3(linear[i], linear[i + 1], linear[i + 2]);
+      std::memcpy(&linear[i], &rgb, sizeof rgb);
+    }
+  }
+  return linear;
+}
+
+}  // namespace catchlight::app

@@ -1,0 +1,148 @@
+#include "app/overlay.hpp"
+
+#include <charconv>
+#include <chrono>
+
+#include "app/exposure.hpp"
+#include "app/progress.hpp"
+
+namespace catchlight::app {
+
+namespace {
+
+std::int64_t parse_frame_number(std::string_view text, const std::string& whole) {
+  std::int64_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size())
+    throw UsageError("--frames " + whole + ": expected A:B, A:, :B or N (frame numbers; B itself is left out)");
+  return number;
+}
+
+/// Frames of the source that the range leaves, where that can be known.
+std::optional<std::int64_t> frames_to_read(const SourceInfo& info, const FrameRange& range) {
+  if (range.end != FrameRange{}.end && !info.frame_count) return range.end - info.first_number;
+  if (!info.frame_count) return {};
+  return std::min(*info.frame_count, range.end == FrameRange{}.end ? *info.frame_count : range.end - info.first_number);
+}
+
+render::FrameView frame_view(const CameraModel& camera, const SceneSettings& scene, const BuiltScene& built, const TrackRow& row,
+                             const Frame& frame) {
+  render::FrameView view;
+  view.camera = camera;
+  if (scene.lens.distortion == Switch::off) view.camera.distortion = {};
+  view.camera_from_tag = row.camera_from_tag;
+  view.exposure = exposure_gain(scene.exposure, row.exposure, tag_irradiance_over_pi(built, row.camera_from_tag));
+  view.black = scene.exposure.mode == "match" ? row.black : glm::dvec3(0.0);
+  view.color = frame.color();
+  view.tag_from_light = tag_from_light(built, row.camera_from_tag);
+  return view;
+}
+
+void count(const TrackRow& row, Report& report) {
+  ++report.frames;
+  switch (row.state) {
+    case tracking::TrackState::tracking:
+      ++report.tracked_frames;
+      break;
+    case tracking::TrackState::coasting:
+      ++report.coasting_frames;
+      break;
+    case tracking::TrackState::lost:
+      ++report.lost_frames;
+      break;
+  }
+}
+
+void warn_of_lost_frames(const Report& report, Log& log) {
+  const std::string of_frames = " of " + std::to_string(report.frames) + " frames";
+  if (report.frames > 0 && report.lost_frames == report.frames)
+    log.warn("the tag was never found in " + std::to_string(report.frames) +
+             " frames, which pass through untouched; check tag.family, tag.id and that the tag is sharp and at least 20 px wide");
+  else if (report.lost_frames > 0)
+    log.warn("no tag in " + std::to_string(report.lost_frames) + of_frames + ", which pass through untouched");
+}
+
+/// Decodes and tracks from the first frame to the range's end, and hands on what is in the range.
+template <class PerFrame>
+OverlayResult run(MediaSource& source, FrameTrack& track, const FrameRange& range, const char* task, Log& log, Report& report,
+                  PerFrame per_frame) {
+  OverlayResult result;
+  Progress progress(log, task, frames_to_read(source.info(), range));
+  const auto start = std::chrono::steady_clock::now();
+  std::int64_t read = 0;
+  try {
+    while (const std::optional<Frame> frame = report.stages.measure("decode", [&] { return source.read(); })) {
+      if (frame->number() >= range.end) break;
+      const TrackRow row = report.stages.measure("track", [&] { return track.row(*frame); });
+      if (range.contains(frame->number())) {
+        per_frame(*frame, row);
+        count(row, report);
+        result.rows.push_back(row);
+      }
+      progress.update(++read);
+    }
+  } catch (const DamagedMedia& damaged) {
+    result.damage = damaged.what();
+  }
+  const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  report.fps = elapsed_s > 0 ? static_cast<double>(report.frames) / elapsed_s : 0;
+  return result;
+}
+
+}  // namespace
+
+FrameRange parse_frame_range(const std::string& text) {
+  FrameRange range;
+  const std::size_t colon = text.find(':');
+  const std::string_view view(text);
+  if (colon == std::string::npos) {
+    range.begin = parse_frame_number(view, text);
+    range.end = range.begin + 1;
+    return range;
+  }
+  if (colon > 0) range.begin = parse_frame_number(view.substr(0, colon), text);
+  if (colon + 1 < text.size()) range.end = parse_frame_number(view.substr(colon + 1), text);
+  if (range.begin >= range.end) throw UsageError("--frames " + text + ": the range is empty; expected A:B with A below B");
+  return range;
+}
+
+Stage build_stage(const SceneSettings& scene, Log& log, Report& report) {
+  Stage stage;
+  stage.context = render::make_headless_context();
+  report.renderer = render::gl_info().renderer;
+  stage.built = build_render_scene(scene, log.warning_handler(), progress_handler(log, "bake"));
+  report.plan = stage.built.plan;
+  render::CompositorSettings settings;
+  settings.glare = scene.glare;
+  settings.samples = scene.quality.samples;
+  stage.compositor = std::make_unique<render::Compositor>(stage.built.scene, settings);
+  return stage;
+}
+
+OverlayResult run_overlay(MediaSource& source, FrameTrack& track, Stage& stage, const SceneSettings& scene,
+                          const CameraModel& camera, FrameOutput& output, const FrameRange& range, Log& log, Report& report) {
+  const OverlayResult result = run(source, track, range, "overlay", log, report, [&](const Frame& frame, const TrackRow& row) {
+    render::Composite composite;
+    if (row.found) {
+      const render::FrameView view = frame_view(camera, scene, stage.built, row, frame);
+      composite = stage.compositor->render(
+          view, [&](const PixelRect& rect) { return frame.rgb(rect); }, output.wants_layers());
+      for (const render::PassTime& pass : stage.compositor->pass_times()) report.stages.add(pass.name, pass.ms);
+    }
+    report.stages.measure("encode", [&] { output.write(frame, composite); });
+  });
+  if (report.frames == 0)
+    throw Error("no frame of the footage lies in --frames; it has " + std::to_string(source.info().frame_count.value_or(0)) +
+                " from " + std::to_string(source.info().first_number));
+  output.finish();
+  warn_of_lost_frames(report, log);
+  return result;
+}
+
+OverlayResult run_track(MediaSource& source, FrameTrack& track, const FrameRange& range, Log& log, Report& report) {
+  const OverlayResult result = run(source, track, range, "track", log, report, [](const Frame&, const TrackRow&) {});
+  warn_of_lost_frames(report, log);
+  return result;
+}
+
+}  // namespace catchlight::app

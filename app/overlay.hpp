@@ -1,0 +1,54 @@
+// The main job: footage in, the virtual object put into every frame, footage out.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/frame_output.hpp"
+#include "app/frame_track.hpp"
+#include "app/log.hpp"
+#include "app/recording.hpp"
+#include "app/report.hpp"
+#include "app/scene_build.hpp"
+#include "render/compositor.hpp"
+#include "render/gl_context.hpp"
+
+namespace catchlight::app {
+
+/// Half-open range of frame numbers, as `--frames A:B` says.
+struct FrameRange {
+  std::int64_t begin = std::numeric_limits<std::int64_t>::min();
+  std::int64_t end = std::numeric_limits<std::int64_t>::max();
+  bool contains(std::int64_t number) const { return number >= begin && number < end; }
+};
+
+/// "A:B" (B left out of it), "A:" or ":B"; "N" is that frame alone. Throws UsageError.
+FrameRange parse_frame_range(const std::string& text);
+
+/// A scene ready to be drawn, with the GL context it lives in.
+struct Stage {
+  std::unique_ptr<render::GlContext> context;
+  BuiltScene built;
+  std::unique_ptr<render::Compositor> compositor;
+};
+
+/// Loads, bakes and uploads; adds plan and renderer to the report. Throws Error.
+Stage build_stage(const SceneSettings& scene, Log& log, Report& report);
+
+struct OverlayResult {
+  std::vector<TrackRow> rows;         ///< of the frames in range
+  std::optional<std::string> damage;  ///< the footage broke off: what is known about it
+};
+
+/// Reads from the source's first frame on, so that the tracker's memory does not depend on the range, and renders the range.
+/// Finishes the output, after damaged footage too. Adds counts, stages and warnings to the report.
+OverlayResult run_overlay(MediaSource& source, FrameTrack& track, Stage& stage, const SceneSettings& scene,
+                          const CameraModel& camera, FrameOutput& output, const FrameRange& range, Log& log, Report& report);
+
+/// Tracks without drawing anything.
+OverlayResult run_track(MediaSource& source, FrameTrack& track, const FrameRange& range, Log& log, Report& report);
+
+}  // namespace catchlight::app

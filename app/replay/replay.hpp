@@ -1,0 +1,32 @@
+// Overlays a recording whose truth is known and measures the result.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/log.hpp"
+#include "app/recording.hpp"
+#include "app/replay/expected.hpp"
+#include "app/replay/pose_comparison.hpp"
+#include "app/replay/truth_comparison.hpp"
+
+namespace catchlight::app {
+
+struct ReplayResult {
+  std::string name;
+  std::optional<PoseComparison> pose;       ///< where the recording has poses.csv
+  std::optional<TruthComparison> pictures;  ///< where it has truth/
+  std::vector<Figure> figures;              ///< both as expected.toml keeps them
+};
+
+/// `location` itself, or the recordings in it, by name. Throws Error where there are none.
+std::vector<std::string> find_recordings(const std::string& location);
+
+/// Truth is a scene without glare and grain: both are off here. Writes the sheet plate | ours | truth | difference x 8 to
+/// `sheet_path` where there is truth. Throws Error as overlay does, also for a truth frame that is missing its mask or has
+/// another size.
+ReplayResult replay_recording(const std::string& location, const RecordingOverrides& overrides, const std::string& sheet_path,
+                              Log& log);
+
+}  // namespace catchlight::app
