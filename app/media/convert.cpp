@@ -3,6 +3,7 @@
 #include <list>
 #include <tuple>
 
+#include "app/media/color_tags.hpp"
 #include "app/media/pixel_layout.hpp"
 
 extern "C" {
@@ -56,49 +57,91 @@ SwsContext* cached_scaler(const Conversion& conversion) {
 }
 
 bool is_rgb(int format) {
-  const AVPixFmtDescriptor* descriptor = av_pix_fmt_desc_get(static_cast<AVPixelFormat>(format));
   // Palettes are not flagged RGB, and swscale reads them as such.
-  return (descriptor->flags & (AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_PAL)) != 0 || format == AV_PIX_FMT_MONOWHITE;
+  return (av_pix_fmt_desc_get(static_cast<AVPixelFormat>(format))->flags & (AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_PAL)) != 0;
+}
+
+// swscale shifts codes between 16 bits and others where they should be stretched: to it, 16-bit RGB's white is 255 * 256 beside
+// limited-range YUV, and the largest code shifted beside full-range YUV.
+double white_for_swscale(const AVFrame& yuv) {
+  const PixelLayout layout = pixel_layout(yuv.format).value();
+  return is_full_range(yuv, layout) ? ((1 << layout.depth()) - 1) << (16 - layout.depth()) : 255 * 256;
+}
+
+bool is_deep_rgb(int format) {
+  const auto layout = pixel_layout(format);
+  return layout && layout->model == ColorModel::rgb && layout->depth() == 16 && !layout->is_float;
+}
+
+void multiply_colors(AVFrame& rgb, double factor) {
+  const PixelLayout layout = pixel_layout(rgb.format).value();
+  for (int i = 0; i < 3; ++i) {
+    const SamplePlane plane(rgb, layout, i);
+    for (int y = 0; y < rgb.height; ++y) {
+      for (int x = 0; x < rgb.width; ++x)
+        plane.set_code(x, y, static_cast<int>(std::min(plane.code(x, y) * factor + 0.5, 65535.0)));
+    }
+  }
+}
+
+void scale(const Conversion& conversion, const std::uint8_t* const from[], const int from_stride[], AVFrame& to) {
+  check_ffmpeg(sws_scale(cached_scaler(conversion), from, from_stride, 0, conversion.height, to.data, to.linesize),
+               "cannot convert the pixel format");
+}
+
+void tag_converted(const AVFrame& from, AVFrame& to) {
+  const auto layout = pixel_layout(to.format);
+  if (is_rgb(to.format)) {
+    to.colorspace = AVCOL_SPC_RGB;
+    to.color_range = AVCOL_RANGE_JPEG;
+  } else if (is_rgb(from.format)) {
+    to.colorspace = AVCOL_SPC_BT709;
+    to.color_range = layout && layout->model == ColorModel::gray ? AVCOL_RANGE_JPEG : AVCOL_RANGE_MPEG;
+  }
 }
 
 }  // namespace
 
 FramePtr convert(const AVFrame& picture, AVPixelFormat format) {
   FramePtr result = make_frame_like(picture, format);
+  tag_converted(picture, *result);
   const bool to_rgb = is_rgb(format);
-  if (is_rgb(picture.format) && !to_rgb) {
-    result->colorspace = AVCOL_SPC_BT709;
-    result->color_range = AVCOL_RANGE_MPEG;
-  } else if (to_rgb) {
-    result->colorspace = AVCOL_SPC_RGB;
-    result->color_range = AVCOL_RANGE_JPEG;
-  }
   const Conversion conversion{picture.width,       picture.height,
                               picture.format,      format,
                               picture.colorspace,  to_rgb ? picture.colorspace : result->colorspace,
                               picture.color_range, to_rgb ? AVCOL_RANGE_UNSPECIFIED : result->color_range};
-  check_ffmpeg(
-      sws_scale(cached_scaler(conversion), picture.data, picture.linesize, 0, picture.height, result->data, result->linesize),
-      "cannot convert the pixel format");
+  if (is_deep_rgb(picture.format) && !to_rgb) {
+    const FramePtr darker = make_frame_like(picture, static_cast<AVPixelFormat>(picture.format));
+    check_ffmpeg(av_frame_copy(darker.get(), &picture), "cannot copy a frame");
+    multiply_colors(*darker, white_for_swscale(*result) / 65535);
+    scale(conversion, darker->data, darker->linesize, *result);
+    return result;
+  }
+  scale(conversion, picture.data, picture.linesize, *result);
+  if (is_deep_rgb(format) && !is_rgb(picture.format)) multiply_colors(*result, 65535 / white_for_swscale(picture));
   return result;
 }
 
-void convert_part(const AVFrame& picture, const PixelRect& rect, AVPixelFormat format, std::uint8_t* rows, int stride_bytes) {
-  const AVPixFmtDescriptor& format_of_picture = *av_pix_fmt_desc_get(static_cast<AVPixelFormat>(picture.format));
+FramePtr convert_part(const AVFrame& picture, const PixelRect& rect, AVPixelFormat rgb_format) {
+  const AVPixFmtDescriptor& layout = *av_pix_fmt_desc_get(static_cast<AVPixelFormat>(picture.format));
   const std::uint8_t* from[4] = {};
-  for (int i = 0; i < format_of_picture.nb_components; ++i) {
-    const AVComponentDescriptor& component = format_of_picture.comp[i];
+  for (int i = 0; i < layout.nb_components; ++i) {
+    const AVComponentDescriptor& component = layout.comp[i];
     const bool is_chroma = i == 1 || i == 2;  // in RGB formats the shifts are 0
-    const std::ptrdiff_t x = rect.x >> (is_chroma ? format_of_picture.log2_chroma_w : 0);
-    const std::ptrdiff_t y = rect.y >> (is_chroma ? format_of_picture.log2_chroma_h : 0);
+    const std::ptrdiff_t x = rect.x >> (is_chroma ? layout.log2_chroma_w : 0);
+    const std::ptrdiff_t y = rect.y >> (is_chroma ? layout.log2_chroma_h : 0);
     from[component.plane] = picture.data[component.plane] + y * picture.linesize[component.plane] + x * component.step;
   }
-  std::uint8_t* to[4] = {rows};
-  const int to_stride[4] = {stride_bytes};
-  const Conversion conversion{rect.width,         rect.height,        picture.format,      format,
-                              picture.colorspace, picture.colorspace, picture.color_range, AVCOL_RANGE_UNSPECIFIED};
-  check_ffmpeg(sws_scale(cached_scaler(conversion), from, picture.linesize, 0, rect.height, to, to_stride),
-               "cannot convert the pixel format");
+  FramePtr part = make_frame();
+  part->format = rgb_format;
+  part->width = rect.width;
+  part->height = rect.height;
+  check_ffmpeg(av_frame_get_buffer(part.get(), 0), "cannot allocate a frame");
+  scale({rect.width, rect.height, picture.format, rgb_format, picture.colorspace, picture.colorspace, picture.color_range,
+         AVCOL_RANGE_UNSPECIFIED},
+        from, picture.linesize, *part);
+  if (is_deep_rgb(rgb_format) && !is_rgb(picture.format)) multiply_colors(*part, 65535 / white_for_swscale(picture));
+  return part;
 }
 
 AVPixelFormat nearest_format(AVPixelFormat format, const AVPixelFormat* formats) {

@@ -36,17 +36,14 @@ render::Plate integer_plate(const AVFrame& picture, const PixelLayout& layout, c
   const bool deep = layout.depth() > 8;
   const int pixel_bytes = deep ? 6 : 3;
   const PixelRect part = padded(rect, layout, picture.width, picture.height);
-  const int stride_bytes = (part.width * pixel_bytes + 63) & ~63;
-  // swscale writes whole vectors past the end of a row.
-  std::vector<std::uint8_t> rows(static_cast<std::size_t>(stride_bytes) * static_cast<std::size_t>(part.height) + 64);
-  convert_part(picture, part, deep ? AV_PIX_FMT_RGB48 : AV_PIX_FMT_RGB24, rows.data(), stride_bytes);
+  const FramePtr rgb = convert_part(picture, part, deep ? AV_PIX_FMT_RGB48 : AV_PIX_FMT_RGB24);
 
   render::Plate plate{rect, deep ? render::Plate::Format::rgb_u16 : render::Plate::Format::rgb_u8, {}};
   const std::size_t row_bytes = static_cast<std::size_t>(rect.width) * static_cast<std::size_t>(pixel_bytes);
   plate.pixels.resize(row_bytes * static_cast<std::size_t>(rect.height));
   for (int y = 0; y < rect.height; ++y) {
     const std::uint8_t* from =
-        rows.data() + static_cast<std::ptrdiff_t>(rect.y - part.y + y) * stride_bytes + (rect.x - part.x) * pixel_bytes;
+        rgb->data[0] + static_cast<std::ptrdiff_t>(rect.y - part.y + y) * rgb->linesize[0] + (rect.x - part.x) * pixel_bytes;
     std::memcpy(plate.pixels.data() + static_cast<std::size_t>(y) * row_bytes, from, row_bytes);
   }
   return plate;
