@@ -18,7 +18,7 @@ class PoseMemory {
   /// `hypotheses`: one or two, from planar_poses(). Returns the index of the chosen one.
   std::size_t choose(std::span<const PoseHypothesis> hypotheses, double time_s);
 
-  /// The chosen pose moved on to `time_s` at the velocity of the last two frames; empty before the first frame.
+  /// The chosen pose moved on to `time_s` at the velocity of the last frames; empty before the first frame.
   std::optional<RigidTransform> predict(double time_s) const;
 
   /// Time of the last choose().
@@ -28,17 +28,23 @@ class PoseMemory {
 
  private:
   struct Hypothesis {
-    RigidTransform camera_from_tag;
+    RigidTransform camera_from_tag;  ///< as measured
+    RigidTransform smoothed;         ///< what the frames before and this one make likely
     glm::dvec3 velocity_m_per_s{0};
     glm::dvec3 turn_rad_per_s{0};  ///< in the camera frame
+    int frames = 1;                ///< how many it continues
     double probability = 0;
   };
-  static RigidTransform moved(const Hypothesis& from, double dt_s);
+  static RigidTransform moved(const Hypothesis& from, const RigidTransform& pose, double dt_s);
   static Hypothesis continued(const Hypothesis& before, const RigidTransform& camera_from_tag, double dt_s);
+  Hypothesis with_history(const PoseHypothesis& seen, double dt_s) const;
+  std::size_t heir(std::span<const Hypothesis> now, double dt_s) const;
+  void learn_noise(double best_rms_px);
 
   std::array<Hypothesis, 2> hypotheses_{};
   std::size_t count_ = 0, chosen_ = 0;
   double time_s_ = 0;
+  double noise_sum_px2_ = 0, noise_weight_ = 0;  ///< of the corners' variance per axis
 };
 
 }  // namespace catchlight::tracking
