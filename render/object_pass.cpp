@@ -11,8 +11,6 @@
 namespace catchlight::render {
 namespace {
 
-constexpr int kBrdfTableSize = 64;
-
 /// Triangle numbers grouped by material.
 std::vector<std::size_t> triangles_by_material(const Mesh& mesh) {
   std::vector<std::size_t> order(mesh.triangle_material.size());
@@ -36,7 +34,7 @@ ObjectPass::ObjectPass(const Mesh& mesh, LitPoints vertices_lit, const Reflectio
       vertices_(make_buffer("object vertices", std::span<const Vertex>(mesh.vertices))),
       vertex_array_(make_vertex_array("object")),
       probe_(make_reflection_texture(reflections)),
-      brdf_table_(make_brdf_texture(kBrdfTableSize)) {
+      brdf_table_(make_brdf_texture()) {
   upload_mesh(mesh);
   upload_materials(mesh);
 }

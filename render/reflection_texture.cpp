@@ -81,8 +81,9 @@ GlTexture make_reflection_texture(const ReflectionMap& reflections) {
   return texture;
 }
 
-GlTexture make_brdf_texture(int size) {
-  const Image table = environment_brdf_table(size);
+GlTexture make_brdf_texture() {
+  constexpr int size = 64;
+  static const Image table = environment_brdf_table(size);  // the same for every scene
   GlTexture texture = make_texture_2d("environment BRDF", GL_RG32F, size, size, GL_LINEAR);
   glTextureSubImage2D(texture.id(), 0, 0, 0, size, size, GL_RG, GL_FLOAT, table.data.data());
   return texture;

@@ -11,6 +11,6 @@ namespace catchlight::render {
 GlTexture make_reflection_texture(const ReflectionMap& reflections);
 
 /// Scale and bias of F0 by (n.v, perceptual roughness).
-GlTexture make_brdf_texture(int size);
+GlTexture make_brdf_texture();
 
 }  // namespace catchlight::render

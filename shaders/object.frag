@@ -6,10 +6,10 @@ layout(binding = TEXTURE_PROBE) uniform samplerCube probe;   // level by percept
 layout(binding = TEXTURE_BRDF) uniform sampler2D brdf_table;  // scale and bias of F0 by (n.v, roughness)
 
 in Surface {
-  centroid vec3 position_tag_m;
-  centroid vec3 normal_tag;
-  centroid vec3 color;
-  centroid vec3 exit_radiance;
+  vec3 position_tag_m;
+  vec3 normal_tag;
+  vec3 color;
+  vec3 exit_radiance;
 } surface;
 
 // Exposed linear in the plate's primaries.
