@@ -12,7 +12,8 @@ constexpr const char* kDescription =
     "Puts synthetic objects into real footage: tracks AprilTags, lights the object with a light probe of the place,\n"
     "and composites it at the camera's own exposure.";
 constexpr const char* kFooter =
-    "`catchlight COMMAND --help` explains a command; `catchlight params` lists what a scene file can say.";
+    "`catchlight COMMAND --help` explains a command; `catchlight params` lists what a scene file can say.\n"
+    "-q anywhere silences all but errors.";
 
 enum ExitCode { kSuccess = 0, kFailure = 1, kUsage = 2 };
 
@@ -35,11 +36,11 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
-/// What stands where nothing was expected: a mistyped option, a mistyped command, or one argument too many.
+/// What stands where nothing was expected: a mistyped option, a mistyped command, or one argument too many. There is one.
 std::string unexpected_argument(const CLI::App& app) {
   const CLI::App& command = active_command(app);
   const std::vector<std::string> extras = app.remaining(true);
-  const std::string argument = extras.empty() ? "" : extras.front();
+  const std::string& argument = extras.front();
   const std::string name = argument.substr(0, argument.find('='));
   if (name.starts_with("--")) return "unknown option " + name + "; did you mean " + nearest(name, option_names(command)) + "?";
   const std::vector<std::string> subcommands = command_names(command);
@@ -50,8 +51,8 @@ std::string unexpected_argument(const CLI::App& app) {
 
 int report_parse_error(const CLI::App& app, const CLI::ParseError& error, Log& log) {
   if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-  const std::string message =
-      dynamic_cast<const CLI::ExtrasError*>(&error) ? unexpected_argument(app) : std::string(error.what());
+  // What is left over comes first: a mistyped command or option is often why something else is missing.
+  const std::string message = app.remaining(true).empty() ? std::string(error.what()) : unexpected_argument(app);
   std::string command = "catchlight";
   for (const CLI::App* chosen = &app; !chosen->get_subcommands().empty();) {
     chosen = chosen->get_subcommands().back();
