@@ -16,7 +16,9 @@ constexpr double kReachCells = 0.7;       ///< of the uniform cell on either sid
 constexpr double kReachPx = 6;            ///< enough for both plateaus at any blur that tags are decoded in
 constexpr double kCornerClearancePx = 3;  ///< where the other edge's blur no longer shows
 constexpr double kLargestShiftPx = 2;
-constexpr int kPasses = 3;
+constexpr double kSettledPx = 0.05;  ///< shifts below it would choose the same pixels again
+constexpr int kMostPasses = 3;
+constexpr double kMostColumns = 256;  ///< along an edge; more cost time and gain less than 0.003 px
 
 LinearTable linear_table(const LumaView& luma) {
   LinearTable table;
@@ -32,6 +34,13 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) {
 /// Where the cells on either side of an edge end: signed distances from it at its start and end, positive inside.
 struct CellBand {
   double inside_start_px, inside_end_px, outside_start_px, outside_end_px;
+
+  /// Whether a pixel sees nothing but the two cells that the edge separates.
+  bool contains(double along, double across_px) const {
+    const double inside_px = inside_start_px + (inside_end_px - inside_start_px) * along;
+    const double outside_px = outside_start_px + (outside_end_px - outside_start_px) * along;
+    return across_px <= std::min(kReachPx, kReachCells * inside_px) && across_px >= std::max(-kReachPx, kReachCells * outside_px);
+  }
 };
 
 /// An edge in ideal pixels, with the tag's inside at positive distances.
@@ -74,46 +83,78 @@ CellBand cell_band(const Quad& ideal, int i, int cells_across) {
   return {line_distance(cell, 0), line_distance(cell, 1), line_distance(-cell, 0), line_distance(-cell, 1)};
 }
 
-/// The pixels beside the edge that see nothing but the two cells it separates.
-std::vector<EdgePixel> edge_pixels(const LumaView& luma, const LinearTable& linear, const CameraModel& camera, const Edge& edge,
-                                   const CellBand& band) {
-  std::vector<EdgePixel> pixels;
-  const double clearance = std::clamp(kCornerClearancePx / edge.length_px, 0.0, 0.25);
-  // Walk along the edge in pieces short enough that the lens bends none of them, each with its own pixel rows or columns.
-  const auto seen = [&](double t) { return distort_px(camera, edge.start + edge.direction * (t * edge.length_px)); };
-  const glm::dvec2 chord = seen(1) - seen(0);
-  const int major = std::abs(chord.x) >= std::abs(chord.y) ? 0 : 1, minor = 1 - major;
-  const int limits[2] = {luma.width_px, luma.height_px};
-  const double reach_rows = 1.5 * kReachPx;  // 6 px across an edge at 45 degrees are 8.5 px of one row
-  const int pieces = std::max(1, static_cast<int>(std::abs(chord[major]) / 16));
-  for (int piece = 0; piece < pieces; ++piece) {
-    glm::dvec2 from = seen(static_cast<double>(piece) / pieces), to = seen(static_cast<double>(piece + 1) / pieces);
+/// Collects the pixels beside one edge.
+class EdgeSampler {
+ public:
+  EdgeSampler(const LumaView& luma, const LinearTable& linear, const CameraModel& camera, const Edge& edge, const CellBand& band)
+      : luma_(luma), linear_(linear), camera_(camera), edge_(edge), band_(band) {
+    const glm::dvec2 chord = seen_px(1) - seen_px(0);
+    steep_ = std::abs(chord.y) > std::abs(chord.x);
+    span_px_ = std::abs(chord[steep_]);
+    stride_ = std::max(1, static_cast<int>(std::ceil(span_px_ / kMostColumns)));
+  }
+
+  /// Walks along the edge as seen, in pieces short enough that the lens bends none of them.
+  std::vector<EdgePixel> collect() {
+    const int pieces = std::max(1, static_cast<int>(span_px_ / 16));
+    for (int i = 0; i < pieces; ++i)
+      add_piece(seen_px(static_cast<double>(i) / pieces), seen_px(static_cast<double>(i + 1) / pieces));
+    return std::move(pixels_);
+  }
+
+ private:
+  glm::dvec2 seen_px(double along) const {
+    return distort_px(camera_, edge_.start + edge_.direction * (along * edge_.length_px));
+  }
+
+  /// One column after the other, or one row after the other along a steep edge.
+  void add_piece(glm::dvec2 from, glm::dvec2 to) {
+    const int major = steep_, minor = 1 - steep_;
+    const int limits[2] = {luma_.width_px, luma_.height_px};
     if (from[major] > to[major]) std::swap(from, to);
     const int first = std::max(0, static_cast<int>(std::ceil(from[major])));
     const int last = std::min(limits[major], static_cast<int>(std::ceil(to[major])));
     for (int m = first; m < last; ++m) {
+      if (m % stride_ != 0) continue;
+      constexpr double kReachInColumnPx = 1.5 * kReachPx;  // 6 px across an edge at 45 degrees are 8.5 px of one column
       const double center = from[minor] + (to[minor] - from[minor]) * (m - from[major]) / (to[major] - from[major]);
-      const int n_first = std::max(0, static_cast<int>(std::ceil(center - reach_rows)));
-      const int n_last = std::min(limits[minor] - 1, static_cast<int>(std::floor(center + reach_rows)));
-      for (int n = n_first; n <= n_last; ++n) {
-        const int x = major == 0 ? m : n, y = major == 0 ? n : m;
-        const auto ideal = undistort_px(camera, {x, y});
-        if (!ideal) continue;
-        const double along = edge.along(*ideal), across = edge.across(*ideal);
-        if (along < clearance || along > 1 - clearance || std::abs(across) > kReachPx) continue;
-        const double inside_px = band.inside_start_px + (band.inside_end_px - band.inside_start_px) * along;
-        const double outside_px = band.outside_start_px + (band.outside_end_px - band.outside_start_px) * along;
-        if (across > kReachCells * inside_px || across < kReachCells * outside_px) continue;
-        pixels.push_back({along, across, linear[luma.data[static_cast<std::ptrdiff_t>(y) * luma.stride + x]]});
-      }
+      const int n_first = std::max(0, static_cast<int>(std::ceil(center - kReachInColumnPx)));
+      const int n_last = std::min(limits[minor] - 1, static_cast<int>(std::floor(center + kReachInColumnPx)));
+      for (int n = n_first; n <= n_last; ++n) steep_ ? add_pixel(n, m) : add_pixel(m, n);
     }
   }
-  return pixels;
-}
+
+  void add_pixel(int x, int y) {
+    const auto ideal_px = undistort_px(camera_, {x, y});
+    if (!ideal_px) return;
+    const double along = edge_.along(*ideal_px), across_px = edge_.across(*ideal_px);
+    const double clearance = std::clamp(kCornerClearancePx / edge_.length_px, 0.0, 0.25);
+    if (along < clearance || along > 1 - clearance || !band_.contains(along, across_px)) return;
+    pixels_.push_back({along, across_px, linear_[luma_.data[static_cast<std::ptrdiff_t>(y) * luma_.stride + x]]});
+  }
+
+  const LumaView& luma_;
+  const LinearTable& linear_;
+  const CameraModel& camera_;
+  const Edge& edge_;
+  const CellBand& band_;
+  bool steep_ = false;
+  double span_px_ = 0;
+  int stride_ = 1;
+  std::vector<EdgePixel> pixels_;
+};
 
 struct Line {
   glm::dvec2 point, direction;
 };
+
+/// Empty as well for an edge of the wrong polarity or too far away: that of something else.
+std::optional<EdgeFit> plausible_fit(std::span<const EdgePixel> pixels, bool white_inside) {
+  const auto fit = fit_edge(pixels);
+  if (!fit || (fit->step > 0) != white_inside) return std::nullopt;
+  if (std::max(std::abs(fit->shift_start_px), std::abs(fit->shift_end_px)) > kLargestShiftPx) return std::nullopt;
+  return fit;
+}
 
 std::optional<glm::dvec2> intersection(const Line& a, const Line& b) {
   const double sine = cross(a.direction, b.direction);
@@ -132,18 +173,20 @@ RefinedCorners refine_corners(const LumaView& luma, const CameraModel& camera, c
     ideal[i] = *corner;
   }
   const LinearTable linear = linear_table(luma);
-  for (int pass = 0; pass < kPasses; ++pass) {
+  double shift_px = kLargestShiftPx;
+  for (int pass = 0; pass < kMostPasses && shift_px > kSettledPx; ++pass) {
+    shift_px = 0;
     std::array<Line, 4> lines;
     for (int i = 0; i < 4; ++i) {
       const Edge edge = edge_of(ideal, i);
-      const auto fit = fit_edge(edge_pixels(luma, linear, camera, edge, cell_band(ideal, i, layout.cells_across)));
-      const bool plausible = fit && (fit->step > 0) == layout.white_inside &&
-                             std::max(std::abs(fit->shift_start_px), std::abs(fit->shift_end_px)) < kLargestShiftPx;
-      refined.edge_refined[i] = plausible;
-      const glm::dvec2 start = edge.start + edge.normal * (plausible ? fit->shift_start_px : 0.0);
-      const glm::dvec2 end = ideal[(i + 1) % 4] + edge.normal * (plausible ? fit->shift_end_px : 0.0);
-      lines[i] = {start, end - start};
-      refined.edge_blur_px[i] = plausible ? fit->blur_px : 0;
+      const CellBand band = cell_band(ideal, i, layout.cells_across);
+      const auto fit = plausible_fit(EdgeSampler(luma, linear, camera, edge, band).collect(), layout.white_inside);
+      refined.edge_refined[i] = fit.has_value();
+      const EdgeFit found = fit.value_or(EdgeFit{});  // no shift where there is none
+      refined.edge_blur_px[i] = found.blur_px;
+      const glm::dvec2 start = edge.start + edge.normal * found.shift_start_px;
+      lines[i] = {start, ideal[(i + 1) % 4] + edge.normal * found.shift_end_px - start};
+      shift_px = std::max({shift_px, std::abs(found.shift_start_px), std::abs(found.shift_end_px)});
     }
     for (int i = 0; i < 4; ++i)
       if (const auto corner = intersection(lines[(i + 3) % 4], lines[i])) ideal[i] = *corner;

@@ -11,6 +11,7 @@ namespace {
 
 constexpr int kParameters = 8;
 constexpr std::size_t kFewestPixels = 24;
+constexpr double kTuning = 2.4;  ///< Cauchy's loss at this many standard deviations keeps 95 % efficiency on Gaussian noise
 using Vector = cv::Matx<double, kParameters, 1>;
 using Matrix = cv::Matx<double, kParameters, kParameters>;
 
@@ -33,8 +34,9 @@ Modelled model(const Vector& p, const EdgePixel& pixel) {
   const double half_step = lerp(p(kHalfStepStart), p(kHalfStepEnd), t);
   const double bright_sign = half_step >= 0 ? 1 : -1;
   const double z = distance / (std::numbers::sqrt2 * blur);
-  const double erf = std::erf(z);
-  const double bell = std::exp(-z * z) * std::numbers::inv_sqrtpi * std::numbers::sqrt2 / blur;  // d erf / d distance
+  const bool on_plateau = std::abs(z) > 4;  // where 1 − |erf| < 2e-8
+  const double erf = on_plateau ? std::copysign(1.0, z) : std::erf(z);
+  const double bell = on_plateau ? 0 : std::exp(-z * z) * std::numbers::inv_sqrtpi * std::numbers::sqrt2 / blur;  // erf's slope
   const double bright_share = (1 + bright_sign * erf) / 2;
 
   Modelled result;
@@ -91,42 +93,49 @@ struct Cost {
   double square(double residual) const { return residual * residual / (scale * scale); }
 };
 
-double total_cost(const Vector& p, std::span<const EdgePixel> pixels, const Cost& cost) {
-  double sum = 0;
-  for (const EdgePixel& pixel : pixels) sum += cost.loss(pixel.value - model(p, pixel).value);
-  return sum;
+struct Linearized {
+  Matrix normal = Matrix::zeros();
+  Vector right = Vector::zeros();
+  double cost = 0;
+};
+
+Linearized linearize(const Vector& p, std::span<const EdgePixel> pixels, const Cost& cost) {
+  Linearized result;
+  for (const EdgePixel& pixel : pixels) {
+    const Modelled modelled = model(p, pixel);
+    const double residual = pixel.value - modelled.value, weight = cost.weight(residual);
+    result.cost += cost.loss(residual);
+    for (int i = 0; i < kParameters; ++i) {
+      const double weighted = weight * modelled.gradient(i);
+      result.right(i) += weighted * residual;
+      for (int j = 0; j <= i; ++j) result.normal(i, j) += weighted * modelled.gradient(j);
+    }
+  }
+  for (int i = 0; i < kParameters; ++i)
+    for (int j = 0; j < i; ++j) result.normal(j, i) = result.normal(i, j);
+  return result;
 }
 
-/// Levenberg-Marquardt from `p` until steps of the edge fall below 1e-4 px.
-Vector minimize(Vector p, std::span<const EdgePixel> pixels, const Cost& cost) {
-  double damping = 1e-3, current = total_cost(p, pixels, cost);
+/// Levenberg-Marquardt until steps of the edge fall below `until_px`.
+Vector minimize(Vector p, std::span<const EdgePixel> pixels, const Cost& cost, double until_px) {
+  double damping = 1e-3;
+  Linearized current = linearize(p, pixels, cost);
   for (int step = 0; step < 30; ++step) {
-    Matrix normal = Matrix::zeros();
-    Vector right = Vector::zeros();
-    for (const EdgePixel& pixel : pixels) {
-      const Modelled modelled = model(p, pixel);
-      const double residual = pixel.value - modelled.value, weight = cost.weight(residual);
-      for (int i = 0; i < kParameters; ++i) {
-        right(i) += weight * residual * modelled.gradient(i);
-        for (int j = 0; j <= i; ++j) normal(i, j) += weight * modelled.gradient(i) * modelled.gradient(j);
-      }
-    }
-    for (int i = 0; i < kParameters; ++i) {
-      for (int j = 0; j < i; ++j) normal(j, i) = normal(i, j);
-      normal(i, i) *= 1 + damping;
-    }
+    Matrix damped = current.normal;
+    for (int i = 0; i < kParameters; ++i) damped(i, i) *= 1 + damping;
     Vector change;
-    if (!cv::solve(normal, right, change, cv::DECOMP_CHOLESKY)) break;
-    const double improved = total_cost(p + change, pixels, cost);
-    if (!(improved <= current)) {
+    if (!cv::solve(damped, current.right, change, cv::DECOMP_CHOLESKY)) break;
+    const Linearized next = linearize(p + change, pixels, cost);
+    if (!(next.cost <= current.cost)) {
       damping *= 10;
       if (damping > 1e6) break;
       continue;
     }
     p += change;
-    current = improved;
+    current = next;
     damping = std::max(damping / 10, 1e-9);
-    if (std::abs(change(kShiftStart)) + std::abs(change(kShiftEnd)) < 1e-4 && std::abs(change(kLogBlur)) < 1e-3) break;
+    const double moved_px = std::abs(change(kShiftStart)) + std::abs(change(kShiftEnd));
+    if (moved_px < until_px && std::abs(change(kLogBlur)) < 10 * until_px) break;
   }
   return p;
 }
@@ -140,11 +149,9 @@ std::optional<EdgeFit> fit_edge(std::span<const EdgePixel> pixels) {
   Vector p = *guess;
   const double contrast = std::abs(2 * p(kHalfStepStart));
   if (!(contrast > 0)) return std::nullopt;
-  double noise = 0;
-  for (const double floor : {0.05, 0.01}) {  // shares of the contrast: the first pass is lenient, far from the solution
-    noise = robust_scale(p, pixels);
-    p = minimize(p, pixels, {2.4 * std::max(noise, floor * contrast)});
-  }
+  // Leniently at first, far from the solution; then with the noise that was found there.
+  p = minimize(p, pixels, {kTuning * std::max(robust_scale(p, pixels), 0.05 * contrast)}, 1e-2);
+  p = minimize(p, pixels, {kTuning * std::max(robust_scale(p, pixels), 0.01 * contrast)}, 1e-4);
 
   EdgeFit fit;
   fit.shift_start_px = p(kShiftStart);
