@@ -181,15 +181,17 @@ class Baker {
     }
   }
 
-  // Returns whether the point is inside the object: more than half of what its rays see are back faces.
+  // Returns whether the object covers the point: no ray escapes, so no camera sees it, and a good part of them look at back faces
+  // (half of them where the point lies on a wall).
   bool bake_receiver(std::size_t p, Transfer& transfer) const {
     const glm::vec3 origin_m = receiver_point(transfer.grid, p);
     Basis basis;
     std::array<glm::vec3, kMaxShBands * kMaxShBands> change{};
-    float inside = 0;
+    float blocked = 0, inside = 0;
     for_receiver_rays(origin_m, [&](const glm::vec3& direction, float weight) {
       const auto hit = scene_.closest_hit(origin_m, direction);
       if (!hit) return;
+      blocked += weight;
       if (!hit->front_facing) inside += weight;
       evaluate_sh(direction, options_.bands, std::span(basis).first(count_));
       for (int i = 0; i < count_; ++i) change[i] -= weight * basis[i];
@@ -197,10 +199,10 @@ class Baker {
     });
     const std::span<glm::vec3> out = coefficients(transfer.receiver, p);
     for (int i = 0; i < count_; ++i) out[i] = transfer.receiver_unshadowed[i] + change[i];
-    return inside > 0.5f;
+    return blocked > 1 - 0.5f / static_cast<float>(options_.rays) && inside > 0.25f;
   }
 
-  // Points inside the object are never seen, but the points beside it are blended with them along the contact line: those next
+  // Covered points are never seen, but the points beside it are blended with them along the contact line: those next
   // to the border take the mean of their open neighbours, so that neither darkness nor light leaks out.
   void fill_covered(Transfer& transfer, std::vector<char>& covered) const {
     const int columns = transfer.grid.columns, rows = transfer.grid.rows;
