@@ -1,7 +1,7 @@
 // Times the named passes of a frame and groups their GL calls under the same names for debuggers.
 #pragma once
 
-#include <cstddef>
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -31,6 +31,7 @@ class PassClock {
  private:
   std::vector<std::string> names_;
   std::vector<GlQuery> queries_;  ///< kept from frame to frame; the first names_.size() are in use
+  std::chrono::steady_clock::time_point frame_start_;
 };
 
 }  // namespace catchlight::render

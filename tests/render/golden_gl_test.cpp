@@ -1,0 +1,173 @@
+// A few whole pictures, and the comparator that guards them.
+#include "tests/render/golden.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "tests/render/gl_fixture.hpp"
+
+namespace catchlight::render::test {
+namespace {
+
+class GoldenGl : public GlTest {};
+
+/// A sky bright at the top, a small warm lamp in front on the left, dark below.
+glm::vec3 studio(const glm::dvec3& d) {
+  const glm::vec3 sky =
+      glm::mix(glm::vec3(0.10f, 0.08f, 0.06f), glm::vec3(0.5f, 0.6f, 0.8f), static_cast<float>(0.5 + 0.5 * d.z));
+  const double to_lamp = glm::dot(d, glm::normalize(glm::dvec3(-1, -0.8, 1)));
+  return sky + glm::vec3(150, 120, 80) * static_cast<float>(1 / (1 + std::exp(-1500 * (to_lamp - 0.993))));
+}
+
+ShRgb studio_light(int bands) {
+  ShRgb light(static_cast<std::size_t>(sh_count(bands)), glm::vec3(0));
+  std::vector<float> y(light.size());
+  constexpr int kRows = 90;
+  for (int row = 0; row < kRows; ++row) {
+    for (int column = 0; column < 2 * kRows; ++column) {
+      const double theta = std::numbers::pi * (row + 0.5) / kRows, phi = std::numbers::pi * (column + 0.5) / kRows;
+      const glm::dvec3 d(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
+      evaluate_sh(d, bands, y);
+      const double solid_angle =
+          std::numbers::pi / kRows * (std::cos(std::numbers::pi * row / kRows) - std::cos(std::numbers::pi * (row + 1) / kRows));
+      for (std::size_t i = 0; i < y.size(); ++i) light[i] += studio(d) * y[i] * static_cast<float>(solid_angle);
+    }
+  }
+  return light;
+}
+
+RenderScene ball(const Material& material) {
+  RenderScene scene = constant_scene(sphere(0.05, {0, 0, 0.05}), material, glm::vec3(1), 4);
+  scene.light = studio_light(4);
+  scene.reflections = reflections_of(studio, 64, 1);
+  return scene;
+}
+
+Material material_of(const glm::vec3& color, float metallic, float roughness, float f0) {
+  Material material;
+  material.base_color = color;
+  material.metallic = metallic;
+  material.roughness = roughness;
+  material.dielectric_f0 = f0;
+  return material;
+}
+
+/// 200 x 150 pixels, from in front of the tag and above it.
+FrameView tilted_view() {
+  FrameView view;
+  view.camera = {.width_px = 200, .height_px = 150, .fx_px = 240, .fy_px = 240, .cx_px = 99.5, .cy_px = 74.5, .distortion = {}};
+  const double tilt = glm::radians(125.0);
+  view.camera_from_tag.rotation = glm::dmat3(1, 0, 0, 0, std::cos(tilt), std::sin(tilt), 0, -std::sin(tilt), std::cos(tilt));
+  view.camera_from_tag.translation_m = {0, 0.03, 0.32};
+  view.exposure = glm::vec3(0.9f);
+  return view;
+}
+
+glm::ivec3 table(int x, int y) {
+  return glm::ivec3(120, 105, 90) + glm::ivec3(((x / 10 + y / 10) % 2) * 25);
+}
+
+/// The plate with the composite in it, 8-bit BGR.
+cv::Mat picture(const RenderScene& scene, const FrameView& view, const CompositorSettings& settings) {
+  cv::Mat result(view.camera.height_px, view.camera.width_px, CV_8UC3);
+  for (int y = 0; y < result.rows; ++y) {
+    for (int x = 0; x < result.cols; ++x) {
+      const glm::ivec3 code = table(x, y);
+      result.at<cv::Vec3b>(y, x) = cv::Vec3b(static_cast<uchar>(code.b), static_cast<uchar>(code.g), static_cast<uchar>(code.r));
+    }
+  }
+  const Composite composite = Compositor(scene, settings).render(view, plate_u8(table));
+  for (int y = composite.rect.y; y < composite.rect.y + composite.rect.height; ++y) {
+    for (int x = composite.rect.x; x < composite.rect.x + composite.rect.width; ++x) {
+      const glm::vec4 pixel = pixel_at(composite, x, y);
+      if (pixel.a == 0) continue;
+      for (int c = 0; c < 3; ++c) result.at<cv::Vec3b>(y, x)[2 - c] = cv::saturate_cast<uchar>(std::lround(255 * pixel[c]));
+    }
+  }
+  return result;
+}
+
+TEST_F(GoldenGl, MatteBallWithItsShadow) {
+  RenderScene scene = ball(material_of({0.8f, 0.35f, 0.2f}, 0, 1, 0));
+  const auto shadow = [](double x, double y) {
+    return 1 - 0.75 * std::exp(-((x - 0.015) * (x - 0.015) + (y + 0.006) * (y + 0.006)) / 0.0018);
+  };
+  add_receiver(scene.transfer, {.min_m = {-0.15f, -0.15f}, .max_m = {0.15f, 0.15f}, .columns = 49, .rows = 49}, shadow);
+  EXPECT_TRUE(matches_golden(picture(scene, tilted_view(), without_glare()), "matte_ball", golden_tolerance()));
+}
+
+TEST_F(GoldenGl, MirrorBallWithGlare) {
+  EXPECT_TRUE(matches_golden(picture(ball(material_of(glm::vec3(0.95f), 1, 0, 0.04f)), tilted_view(), {}), "mirror_ball",
+                             golden_tolerance()));
+}
+
+TEST_F(GoldenGl, PlasticBallThroughABarrelLens) {
+  FrameView view = tilted_view();
+  view.camera.distortion = {-0.9, 0.5, 0.01, -0.01, 0, 0, 0, 0};
+  view.camera_from_tag.translation_m = {0.06, 0.02, 0.3};
+  EXPECT_TRUE(matches_golden(picture(ball(material_of({0.1f, 0.3f, 0.6f}, 0, 0, 0.04f)), view, without_glare()), "plastic_ball",
+                             golden_tolerance()));
+}
+
+class GoldenComparator : public ::testing::Test {
+ protected:
+  static bool accepts(const cv::Mat& changed) { return within(image_difference(changed, original()), kSoftwareTolerance); }
+  static cv::Mat original() { return cv::imread(std::string(CATCHLIGHT_SOURCE_DIR) + "/tests/golden/matte_ball.png"); }
+};
+
+TEST_F(GoldenComparator, AcceptsTheSamePictureAndOneCodeOfRounding) {
+  cv::Mat rounded = original();
+  ASSERT_FALSE(rounded.empty());
+  for (int x = 3; x < rounded.cols; x += 40) rounded.at<cv::Vec3b>(60, x)[1] += 1;
+  EXPECT_TRUE(accepts(original()));
+  EXPECT_TRUE(accepts(rounded));
+}
+
+TEST_F(GoldenComparator, RefusesAShiftByOnePixel) {
+  cv::Mat shifted;
+  cv::warpAffine(original(), shifted, cv::Matx23d(1, 0, 1, 0, 1, 0), original().size(), cv::INTER_NEAREST, cv::BORDER_REPLICATE);
+  EXPECT_FALSE(accepts(shifted));
+}
+
+TEST_F(GoldenComparator, RefusesABlankedObject) {
+  cv::Mat blanked = original();
+  cv::circle(blanked, {100, 80}, 25, cv::Scalar(90, 105, 120), cv::FILLED);
+  EXPECT_FALSE(accepts(blanked));
+}
+
+TEST_F(GoldenComparator, RefusesSwappedRedAndBlue) {
+  cv::Mat swapped;
+  cv::cvtColor(original(), swapped, cv::COLOR_BGR2RGB);
+  EXPECT_FALSE(accepts(swapped));
+}
+
+TEST_F(GoldenComparator, RefusesAPictureUpsideDown) {
+  cv::Mat flipped;
+  cv::flip(original(), flipped, 0);
+  EXPECT_FALSE(accepts(flipped));
+}
+
+TEST_F(GoldenComparator, RefusesTwoPercentMoreExposure) {
+  cv::Mat brighter = original();
+  for (int i = 0; i < static_cast<int>(brighter.total() * 3); ++i) {
+    uchar& code = brighter.data[i];
+    code = cv::saturate_cast<uchar>(std::lround(255 * srgb_from_linear(1.02 * linear_from_srgb(code / 255.0))));
+  }
+  EXPECT_FALSE(accepts(brighter));
+}
+
+TEST_F(GoldenComparator, AMissingGoldenFailsAndSaysHowToBless) {
+  if (std::getenv("CATCHLIGHT_BLESS")) GTEST_SKIP() << "would bless it";
+  const auto result = matches_golden(original(), "never_made", kSoftwareTolerance);
+  EXPECT_FALSE(result);
+  EXPECT_THAT(result.message(),
+              ::testing::AllOf(::testing::HasSubstr("never_made.png"), ::testing::HasSubstr("CATCHLIGHT_BLESS=1")));
+}
+
+}  // namespace
+}  // namespace catchlight::render::test
