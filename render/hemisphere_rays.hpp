@@ -22,7 +22,6 @@ class Hemisphere {
   explicit Hemisphere(const glm::vec3& normal);
   glm::vec3 direction(const glm::dvec2& square) const;                        ///< density cos / pi
   glm::vec3 cone_direction(const glm::dvec2& square, double cos_cone) const;  ///< uniform within the angle of that cosine
-  glm::mat3 frame() const { return glm::mat3(glm::dmat3(tangent_, bitangent_, normal_)); }
 
  private:
   glm::dvec3 tangent_, bitangent_, normal_;

@@ -1,15 +1,14 @@
-// Karis, "Real Shading in Unreal Engine 4", 2013 (the split sum, with n = v = r for the filter); Krivanek & Colbert, "Real-time
-// Shading with Filtered Importance Sampling", 2008 (each sample reads the mip level whose texels are as large as its share).
+// Karis, "Real Shading in Unreal Engine 4", 2013: the split sum, with n = v = r for the filter.
 #include "render/prefilter.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 #include "render/cube_map.hpp"
 #include "render/hemisphere_rays.hpp"
+#include "render/light_tree.hpp"
 #include "render/parallel.hpp"
 
 namespace catchlight::render {
@@ -17,11 +16,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr int kMaxFaceSize = 512, kMinFaceSize = 64, kMinLevels = 6, kMaxLevels = 8;
-constexpr std::uint32_t kFilterSamples = 256, kBrdfSamples = 1024;
-
-// One texel wider than the sample's share: neighbouring samples then overlap, and a small sun leaves a smooth highlight, not
-// dots.
-constexpr double kLevelBias = 1.0;
+constexpr std::uint32_t kBrdfSamples = 1024;
 
 // Power of two with about the probe's own angle per texel in the middle of a face.
 int face_size_for(const Probe& probe, int wanted) {
@@ -73,46 +68,14 @@ glm::dvec3 ggx_half_vector(const glm::dvec2& square, double alpha) {
   return {sin * std::cos(phi), sin * std::sin(phi), std::sqrt(cos2)};
 }
 
-struct FilterSample {
-  glm::vec3 direction;  ///< towards the light, the reflected ray being +z
-  float weight;         ///< n . l, over the sum of all
-  float level;          ///< of the mip chain
-};
-
-std::vector<FilterSample> filter_samples(double alpha, int face_size) {
-  std::vector<FilterSample> samples;
-  float sum = 0;
-  for (std::uint32_t k = 0; k < kFilterSamples; ++k) {
-    const glm::dvec3 half = ggx_half_vector(scrambled_sobol(k, 1), alpha);
-    const glm::dvec3 light = 2 * half.z * half - glm::dvec3(0, 0, 1);
-    if (light.z <= 0) continue;
-    const double root = (alpha * alpha - 1) * half.z * half.z + 1, density = alpha * alpha / (kPi * root * root) / 4;
-    const double share_sr = 1 / (kFilterSamples * density), texel_sr = 4 * kPi / (6.0 * face_size * face_size);
-    samples.push_back(
-        {glm::vec3(light), static_cast<float>(light.z), static_cast<float>(0.5 * std::log2(share_sr / texel_sr) + kLevelBias)});
-    sum += samples.back().weight;
-  }
-  for (FilterSample& sample : samples) sample.weight /= sum;
-  return samples;
-}
-
-glm::vec3 trilinear(const std::vector<CubeLevel>& chain, const glm::vec3& direction, float level) {
-  const float clamped = std::clamp(level, 0.0f, static_cast<float>(chain.size() - 1));
-  const auto below = std::min(static_cast<std::size_t>(clamped), chain.size() - 2);
-  return glm::mix(chain[below].sample(direction), chain[below + 1].sample(direction), clamped - static_cast<float>(below));
-}
-
-Image filtered(const std::vector<CubeLevel>& chain, int size, double roughness) {
-  const std::vector<FilterSample> samples = filter_samples(roughness * roughness, chain.front().size());
+Image filtered(const LightTree& light, int size, double roughness) {
   Image level(size, 6 * size);
   parallel_for(level.height, 0, [&](std::size_t row) {
     const int y = static_cast<int>(row) % size, face = static_cast<int>(row) / size;
     for (int x = 0; x < size; ++x) {
-      const glm::mat3 frame =
-          Hemisphere(glm::vec3(cube_direction(face, (2 * x + 1.0) / size - 1, (2 * y + 1.0) / size - 1))).frame();
-      glm::vec3 sum(0);
-      for (const FilterSample& sample : samples) sum += sample.weight * trilinear(chain, frame * sample.direction, sample.level);
-      for (int c = 0; c < 3; ++c) level.pixel(x, static_cast<int>(row))[c] = sum[c];
+      const glm::vec3 value =
+          light.under_lobe(glm::vec3(cube_texel_direction(face, size, x, y)), static_cast<float>(roughness * roughness));
+      for (int c = 0; c < 3; ++c) level.pixel(x, static_cast<int>(row))[c] = value[c];
     }
   });
   return level;
@@ -145,12 +108,8 @@ ReflectionMap prefilter_reflections(const Probe& probe, const glm::dmat3& tag_fr
   const int size = face_size_for(probe, face_size), levels = level_count_for(size);
   ReflectionMap map;
   map.levels.push_back(cube_of(probe, glm::transpose(tag_from_probe), size));
-  std::vector<CubeLevel> chain{CubeLevel(map.levels.front())};
-  for (Image level = map.levels.front(); level.width > 1;) {
-    level = halved_cube(level);
-    chain.emplace_back(level);
-  }
-  for (int k = 1; k < levels; ++k) map.levels.push_back(filtered(chain, size >> k, static_cast<double>(k) / (levels - 1)));
+  const LightTree light(map.levels.front());
+  for (int k = 1; k < levels; ++k) map.levels.push_back(filtered(light, size >> k, static_cast<double>(k) / (levels - 1)));
   return map;
 }
 
