@@ -53,6 +53,19 @@ VideoCodec codec_of(const std::string& path, const Container& container, const s
   return name == "h264" ? VideoCodec::h264 : VideoCodec::ffv1;
 }
 
+// x264 itself complains on the terminal.
+void check_quality(const SinkOptions& options) {
+  constexpr std::array<std::string_view, 10> kPresets{"ultrafast", "superfast", "veryfast", "faster",   "fast",
+                                                      "medium",    "slow",      "slower",   "veryslow", "placebo"};
+  if (std::find(kPresets.begin(), kPresets.end(), options.preset) == kPresets.end()) {
+    std::string known;
+    for (const std::string_view preset : kPresets) known.append(known.empty() ? "" : ", ").append(preset);
+    throw UsageError("unknown preset '" + options.preset + "'; known are " + known);
+  }
+  if (options.crf < 0 || options.crf > 51)
+    throw UsageError("crf " + std::to_string(options.crf) + " is outside 0 (lossless) to 51");
+}
+
 void refuse_same_file(const fs::path& output, const fs::path& input) {
   std::error_code ignored;
   if (fs::equivalent(output, input, ignored)) {
@@ -87,6 +100,7 @@ std::unique_ptr<MediaSink> MediaSink::open(const std::string& path, const std::s
   VideoSinkRequest request{path,   std::string(container.muxer), codec_of(path, container, options.codec),
                            "",     frame_rate_of(source),        source.info().first_number,
                            options};
+  if (request.codec == VideoCodec::h264) check_quality(options);
   const bool is_file = path != "-";
   if (is_file) refuse_same_file(path, source_location);
   if (is_file && !options.overwrite && fs::exists(path))

@@ -37,7 +37,7 @@ CodecTraits traits(VideoCodec codec) {
     case VideoCodec::ffv1:
       return {"ffv1", "an FFmpeg with FFV1"};
     case VideoCodec::y4m:
-      return {"rawvideo", "an FFmpeg with raw video"};
+      return {"wrapped_avframe", "an FFmpeg with wrapped frames"};
     case VideoCodec::png:
       return {"png", "an FFmpeg with PNG"};
   }

@@ -40,6 +40,7 @@ void VideoSink::write_header() {
   Options options;
   if (request_.muxer == "mp4" || request_.muxer == "mov") {
     options.set("movflags", "+faststart");
+    options.set("movie_timescale", "90000");  // places sound that begins after the picture; the default is a coarse 1/1000 s
     options.set("video_track_timescale", std::to_string(stream_->time_base.den));
   }
   check_ffmpeg(avformat_write_header(output_.get(), options.get()), what());

@@ -104,6 +104,11 @@ void VideoSource::open_decoder() {
   check_ffmpeg(avcodec_parameters_to_context(decoder_.get(), stream_->codecpar), "cannot decode " + about());
   decoder_->pkt_timebase = stream_->time_base;
   decoder_->thread_count = 0;
+  // Decoders of pictures that stand alone conceal what is missing, or fails its checksum, and say nothing, unless told to be
+  // strict.
+  const AVCodecDescriptor* properties = avcodec_descriptor_get(codec->id);
+  const bool stands_alone = properties && (properties->props & AV_CODEC_PROP_INTRA_ONLY) != 0;
+  if (stands_alone && !request_.info.is_live) decoder_->err_recognition |= AV_EF_EXPLODE;
   // Frame threads hold frames back: a camera should not wait for them.
   decoder_->thread_type = request_.info.is_live ? FF_THREAD_SLICE : FF_THREAD_FRAME | FF_THREAD_SLICE;
   check_ffmpeg(avcodec_open2(decoder_.get(), codec, nullptr), "cannot decode " + about());
@@ -143,7 +148,7 @@ FramePtr VideoSource::decode() {
     if (received == AVERROR(EAGAIN)) {
       feed_decoder();
     } else if (!request_.info.is_live) {
-      note_damage(ffmpeg_reason(received));
+      throw_damaged(ffmpeg_reason(received));  // what the decoder still holds comes after the damage
     }
   }
 }
@@ -153,7 +158,7 @@ void VideoSource::feed_decoder() {
   for (;;) {
     const int got = av_read_frame(input_.get(), packet_.get());
     if (got == AVERROR(EAGAIN)) continue;
-    if (got == AVERROR_EOF || (got < 0 && !damage_.empty())) {
+    if (got == AVERROR_EOF) {
       send(nullptr);
       return;
     }
@@ -180,18 +185,15 @@ void VideoSource::feed_decoder() {
   }
 }
 
-bool VideoSource::send(const AVPacket* packet) {
+void VideoSource::send(const AVPacket* packet) {
   const int sent = avcodec_send_packet(decoder_.get(), packet);
-  if (sent >= 0 || sent == AVERROR_EOF) return true;
-  if (!request_.info.is_live) note_damage(ffmpeg_reason(sent));
-  return false;
+  if (sent < 0 && sent != AVERROR_EOF && !request_.info.is_live) throw_damaged(ffmpeg_reason(sent));
 }
 
-// The decoder still holds frames from before the damage: let it give them out first.
+// Of the file, which the decoder has not seen: it still holds frames from before the damage. Let it give them out first.
 void VideoSource::note_damage(const std::string& reason) {
-  if (damage_.empty()) damage_ = reason;
-  if (std::exchange(draining_, true)) return;
-  avcodec_send_packet(decoder_.get(), nullptr);
+  damage_ = reason;
+  send(nullptr);
 }
 
 void VideoSource::throw_damaged(const std::string& reason) {
@@ -210,8 +212,8 @@ void VideoSource::check_frame(const AVFrame& picture) {
 
 // At the end of what could be read: was that all that the file announces?
 void VideoSource::check_complete() {
-  if (request_.info.is_live) return;
   if (!damage_.empty()) throw_damaged(damage_);
+  if (request_.info.is_live) return;
   if (request_.info.is_sequence) {
     if (delivered_ < *request_.info.frame_count) throw_damaged("a file is empty or unreadable");
     return;
@@ -224,8 +226,8 @@ void VideoSource::check_complete() {
   if (input_->duration_estimation_method != AVFMT_DURATION_FROM_STREAM || input_->duration <= 0) return;
   const std::int64_t start_us = input_->start_time == AV_NOPTS_VALUE ? 0 : input_->start_time;
   const double missing_s = static_cast<double>(start_us + input_->duration - end_us_) / AV_TIME_BASE;
-  constexpr double kSlack_s = 0.5;  // durations are rounded, and may count one frame or packet more
-  if (missing_s > kSlack_s) throw_damaged("the last " + std::to_string(missing_s) + " s of its announced duration are missing");
+  const double slack_s = 0.1 + 2 / request_.info.frame_rate;  // durations are rounded, and may count one packet more
+  if (missing_s > slack_s) throw_damaged("the last " + std::to_string(missing_s) + " s of its announced duration are missing");
 }
 
 Frame VideoSource::finish_frame(FramePtr picture) {

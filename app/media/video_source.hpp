@@ -32,7 +32,7 @@ class VideoSource final : public MediaSource {
   std::optional<Frame> next();
   FramePtr decode();
   void feed_decoder();
-  bool send(const AVPacket* packet);
+  void send(const AVPacket* packet);
   void note_damage(const std::string& reason);
   void check_frame(const AVFrame& picture);
   void check_complete();
@@ -51,7 +51,7 @@ class VideoSource final : public MediaSource {
   std::int64_t packets_ = 0, delivered_ = 0;
   std::int64_t first_pts_ = 0, last_pts_ = 0, end_us_ = 0;
   int format_ = -1;
-  bool draining_ = false, finished_ = false;
+  bool finished_ = false;
   std::string damage_;  // found while reading ahead; thrown when the frames before it are delivered
 };
 

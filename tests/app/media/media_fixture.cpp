@@ -85,6 +85,7 @@ void pass_through(const std::string& input, const std::string& output, const Sin
 }
 
 FramePtr noise_frame(AVPixelFormat format, int width, int height, unsigned seed) {
+  capture_ffmpeg_log();
   FramePtr frame = make_frame();
   frame->format = format;
   frame->width = width;
