@@ -115,6 +115,7 @@ Stage build_stage(const SceneSettings& scene, Log& log, Report& report) {
   render::CompositorSettings settings;
   settings.glare = scene.glare;
   settings.samples = scene.quality.samples;
+  settings.reflection_rays = scene.quality.reflection_rays;
   stage.compositor = std::make_unique<render::Compositor>(stage.built.scene, settings);
   return stage;
 }

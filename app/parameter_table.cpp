@@ -92,6 +92,11 @@ std::vector<Parameter> make_table() {
        IntegerKind{[](Scene& s) -> int& { return s.quality.bounces; }, 0, 8}},
       {"quality.samples", "", "Samples per pixel on the object's edges.",
        IntegerKind{[](Scene& s) -> int& { return s.quality.samples; }, 1, 16}},
+      {"quality.reflection_rays", "",
+       "Rays over what a rough surface mirrors, which find the object itself and the receiver in its true place; 0: everything "
+       "mirrored "
+       "is as far away as the probe.",
+       IntegerKind{[](Scene& s) -> int& { return s.quality.reflection_rays; }, 0, 256}},
       {"quality.receiver_points", "", "Points along each side of the grid that holds the shadow.",
        IntegerKind{[](Scene& s) -> int& { return s.quality.receiver_points; }, 2, 1024}},
   };

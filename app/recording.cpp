@@ -98,6 +98,7 @@ void choose_scene(Recording& recording, const RecordingOverrides& overrides) {
   if (!file) throw Error(recording.footage + ": no scene (" + where_expected(recording, "scene.toml") + "); pass --scene FILE");
   recording.scene = read_scene_file(*file);
   for (const auto& [key, text] : overrides.parameters) set_parameter_from_text(recording.scene, key, text);
+  recording.scene.probe.strict = overrides.strict;
 }
 
 }  // namespace

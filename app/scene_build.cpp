@@ -29,11 +29,19 @@ double diagonal_m(const render::Mesh& mesh) {
   return glm::distance(low, high);
 }
 
+/// Probes are captured where the object's middle will be.
+float half_height_m(const render::Mesh& mesh) {
+  float top = 0;
+  for (const render::Vertex& vertex : mesh.vertices) top = std::max(top, vertex.position_m.z);
+  return top / 2;
+}
+
 render::Probe load_scaled_probe(const SceneSettings& settings, const WarningHandler& warn) {
   if (settings.probe.image.empty())
     throw Error("the scene has no light: give [probe] image = \"FILE\" in the scene file, or --probe.image FILE");
   render::ProbeLoadOptions options;
   if (settings.probe.layout != "auto") options.layout = render::probe_layout_from_name(settings.probe.layout);
+  options.strict = settings.probe.strict;
   render::Probe probe = render::load_probe(settings.resolve(settings.probe.image), options, warn);
   const auto gain = static_cast<float>(std::exp2(settings.probe.ev));
   for (float& value : probe.image.data) value *= gain;
@@ -111,6 +119,7 @@ BuiltScene build_render_scene(const SceneSettings& settings, const WarningHandle
   bake(built, settings, warn, progress);
   built.scene.light = render::rotate_sh(render::project_to_sh(built.probe, settings.quality.bands), built.light_from_probe);
   built.scene.reflections = render::prefilter_reflections(built.probe, built.light_from_probe);
+  built.scene.probe_in_tag_m = glm::vec3(0, 0, half_height_m(built.scene.mesh));
   if (!built.light_follows_camera) built.still_irradiance_over_pi = irradiance_over_pi(built, glm::dmat3(1.0));
   return built;
 }

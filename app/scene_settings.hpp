@@ -48,6 +48,7 @@ struct SceneSettings {
     double yaw_deg = 0;
     std::string fixed_to = "tag";
     double ev = 0;
+    bool strict = false;  ///< refuse bad texels; the command line's --strict, not a key of the file
   } probe;
 
   struct Exposure {
@@ -68,6 +69,7 @@ struct SceneSettings {
     int rays = 1024;
     int bounces = 2;
     int samples = 4;
+    int reflection_rays = 16;
     int receiver_points = 96;
   } quality;
 

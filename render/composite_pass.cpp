@@ -53,6 +53,8 @@ glm::ivec4 as_vector(const PixelRect& rect) {
 
 CompositePass::CompositePass(const std::string& shader_folder)
     : program_(make_program({.vertex = "fullscreen.vert", .fragment = "composite.frag", .captured = {}}, shader_folder)),
+      plate_light_program_(
+          make_program({.vertex = "fullscreen.vert", .fragment = "plate_light.frag", .captured = {}}, shader_folder)),
       no_attributes_(make_vertex_array("no attributes")),
       black_(make_texture_2d("black", GL_RGBA8, 1, 1)) {
   glClearTexImage(black_.id(), 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
@@ -74,23 +76,16 @@ void CompositePass::upload(const Plate& plate) {
   }
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glTextureSubImage2D(plate_.id(), 0, 0, 0, plate.rect.width, plate.rect.height, GL_RGB, format.type, plate.pixels.data());
-  rect_ = plate.rect;
+  plate_rect_ = plate.rect;
   clips_ = format.clips;
   changed_code_ = format.changed_code;
 }
 
-void CompositePass::draw(const FrameView& view, const VirtualLayer& layer, const GlareSettings& glare, bool with_layers) {
-  const int width = roomy(rect_.width), height = roomy(rect_.height);
-  if (with_layers && !(layers_ && layers_->fits(width, height))) {
-    layers_ = std::make_unique<ColorTarget<kOutputs>>("layers", GL_RGBA32F, width, height);
-  }
-  if (!with_layers && !(output_ && output_->fits(width, height)))
-    output_ = std::make_unique<ColorTarget<1>>("composite", GL_RGBA32F, width, height);
-  drawn_framebuffer_ = with_layers ? layers_->framebuffer() : output_->framebuffer();
-
+void CompositePass::update_uniforms(const FrameView& view, const VirtualLayer& layer, const GlareSettings& glare) {
   shader_interface::CompositeUniforms block{};
   block.output_rect = as_vector(rect_);
   block.virtual_rect = as_vector(layer.rect);
+  block.plate_rect = as_vector(plate_rect_);
   block.modes = {mode_of(view.color.transfer), clips_ ? 1 : 0, layer.glare ? 1 : 0, 0};
   block.black = glm::vec4(view.black, 0);
   block.changed_code.x = changed_code_;
@@ -98,6 +93,38 @@ void CompositePass::draw(const FrameView& view, const VirtualLayer& layer, const
   if (layer.glare) block.glare_from_frame = layer.glare->texture_from_frame();
   uniforms_.update(block);
   uniforms_.bind(BINDING_COMPOSITE);
+}
+
+void CompositePass::draw_plate_light(const FrameView& view) {
+  const int width = plate_rect_.width, height = plate_rect_.height;
+  if (plate_light_width_ != width || plate_light_height_ != height) {
+    plate_light_ = make_mipmapped_texture_2d("plate light", GL_RGBA16F, width, height);
+    plate_light_framebuffer_ = make_framebuffer("plate light");
+    glNamedFramebufferTexture(plate_light_framebuffer_.id(), GL_COLOR_ATTACHMENT0, plate_light_.id(), 0);
+    plate_light_width_ = width, plate_light_height_ = height;
+  }
+  update_uniforms(view, {}, {});
+  reset_state();
+  glBindFramebuffer(GL_FRAMEBUFFER, plate_light_framebuffer_.id());
+  glViewport(0, 0, width, height);
+  glUseProgram(plate_light_program_.id());
+  glBindVertexArray(no_attributes_.id());
+  glBindTextureUnit(TEXTURE_PLATE, plate_.id());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glGenerateTextureMipmap(plate_light_.id());
+}
+
+void CompositePass::draw(const FrameView& view, const PixelRect& rect, const VirtualLayer& layer, const GlareSettings& glare,
+                         bool with_layers) {
+  rect_ = rect;
+  const int width = roomy(rect_.width), height = roomy(rect_.height);
+  if (with_layers && !(layers_ && layers_->fits(width, height))) {
+    layers_ = std::make_unique<ColorTarget<kOutputs>>("layers", GL_RGBA32F, width, height);
+  }
+  if (!with_layers && !(output_ && output_->fits(width, height)))
+    output_ = std::make_unique<ColorTarget<1>>("composite", GL_RGBA32F, width, height);
+  drawn_framebuffer_ = with_layers ? layers_->framebuffer() : output_->framebuffer();
+  update_uniforms(view, layer, glare);
 
   reset_state();
   glBindFramebuffer(GL_FRAMEBUFFER, drawn_framebuffer_);

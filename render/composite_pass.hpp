@@ -26,8 +26,13 @@ class CompositePass {
   /// Throws Error if the plate is not of its rectangle's size.
   void upload(const Plate& plate);
 
-  /// Over the uploaded plate's rectangle.
-  void draw(const FrameView& view, const VirtualLayer& layer, const GlareSettings& glare, bool with_layers);
+  /// The uploaded plate as the light that it photographed, for mirrors. Needs the ViewUniforms bound.
+  void draw_plate_light(const FrameView& view);
+  const GlTexture& plate_light() const { return plate_light_; }
+
+  /// Over `rect`, which the uploaded plate holds.
+  void draw(const FrameView& view, const PixelRect& rect, const VirtualLayer& layer, const GlareSettings& glare,
+            bool with_layers);
 
   /// Codes and change flags, RGBA.
   std::vector<float> read() const;
@@ -38,15 +43,19 @@ class CompositePass {
  private:
   static constexpr int kOutputs = 5;
 
-  GlProgram program_;
+  void update_uniforms(const FrameView& view, const VirtualLayer& layer, const GlareSettings& glare);
+
+  GlProgram program_, plate_light_program_;
   GlVertexArray no_attributes_;
   UniformBuffer<shader_interface::CompositeUniforms> uniforms_{"composite"};
-  GlTexture plate_, black_;
+  GlTexture plate_, plate_light_, black_;
+  GlFramebuffer plate_light_framebuffer_;
   GLenum plate_format_ = 0;
   int plate_width_ = 0, plate_height_ = 0;
   bool clips_ = true;
   float changed_code_ = 0;
-  PixelRect rect_;
+  PixelRect plate_rect_, rect_;
+  int plate_light_width_ = 0, plate_light_height_ = 0;
   std::unique_ptr<ColorTarget<1>> output_;
   std::unique_ptr<ColorTarget<kOutputs>> layers_;
   GLuint drawn_framebuffer_ = 0;

@@ -19,6 +19,8 @@ namespace catchlight::render {
 namespace {
 
 constexpr double kNear_m = 1e-3;
+/// Of the object's diagonal: how far a smoothed surface may lie from its triangles.
+constexpr float kSkinShare = 0.01f;
 
 struct Box {
   glm::dvec3 min_m{std::numeric_limits<double>::max()}, max_m{std::numeric_limits<double>::lowest()};
@@ -49,12 +51,14 @@ struct Compositor::Impl {
   void relight(const glm::dmat3& tag_from_light);
   void update_view(const FrameView& view);
   PixelRect reach(const FrameView& view) const;
+  bool mirrors_receiver(const FrameView& view) const;
+  void upload_plate(const PlateReader& plate, const PixelRect& rect);
   void make_targets(const PixelRect& rect, bool want_layers);
   bool draw_virtual_layer(const FrameView& view, const PixelRect& rect);
-  Plate fetch(const PlateReader& plate, const PixelRect& rect);
 
   CompositorSettings settings;
   ShRgb light_probe;
+  glm::vec3 probe_in_tag_m;
   Box box;
   ReceiverGrid grid;
   PassClock clock;
@@ -73,6 +77,7 @@ struct Compositor::Impl {
 Compositor::Impl::Impl(const RenderScene& scene, const CompositorSettings& wanted)
     : settings(wanted),
       light_probe(checked(scene).light),
+      probe_in_tag_m(scene.probe_in_tag_m),
       box(bounding_box(scene.mesh)),
       grid(scene.transfer.grid),
       light(wanted.shader_folder),
@@ -111,6 +116,9 @@ void Compositor::Impl::update_view(const FrameView& view) {
   block.radial_denominator = glm::vec4(k4, k5, k6, 0);
   block.tangential = glm::vec4(p1, p2, 0, 0);
   block.lens_limit = glm::vec4(limit.radius, limit.distorted, limit.slope, 0);
+  block.frame = glm::vec4(view.camera.width_px, view.camera.height_px, view.camera.fx_px, 0);
+  block.probe_in_tag_m = glm::vec4(probe_in_tag_m, kSkinShare * static_cast<float>(glm::distance(box.min_m, box.max_m)));
+  block.options = {settings.reflection_rays, mirrors_receiver(view) ? 1 : 0, 0, 0};
   view_uniforms.update(block);
   view_uniforms.bind(BINDING_VIEW);
 }
@@ -127,6 +135,11 @@ PixelRect Compositor::Impl::reach(const FrameView& view) const {
   return rect;
 }
 
+/// A mirror shows the receiver where the camera does.
+bool Compositor::Impl::mirrors_receiver(const FrameView& view) const {
+  return settings.reflection_rays > 0 && receiver && object.reflects() && inverse(view.camera_from_tag).translation_m.z > 0;
+}
+
 void Compositor::Impl::make_targets(const PixelRect& rect, bool want_layers) {
   const int width = roomy(rect.width), height = roomy(rect.height);
   if (!object_target || !object_target->fits(width, height, want_layers)) {
@@ -141,6 +154,8 @@ bool Compositor::Impl::draw_virtual_layer(const FrameView& view, const PixelRect
   const int width = view.camera.width_px, height = view.camera.height_px;
   {
     const auto pass = clock.pass("object");
+    if (receiver) receiver->bind();
+    glBindTextureUnit(TEXTURE_PLATE_LIGHT, composite.plate_light().id());
     object.draw(*object_target, rect, width, height);
   }
   {
@@ -155,10 +170,11 @@ bool Compositor::Impl::draw_virtual_layer(const FrameView& view, const PixelRect
   return glare.extract(object_target->color(), rect, width, height);
 }
 
-Plate Compositor::Impl::fetch(const PlateReader& plate, const PixelRect& rect) {
-  Plate result = plate(rect);
+void Compositor::Impl::upload_plate(const PlateReader& plate, const PixelRect& rect) {
+  const auto pass = clock.pass("plate");
+  const Plate result = plate(rect);
   if (result.rect != rect) throw Error("the plate reader gave another rectangle than it was asked for");
-  return result;
+  composite.upload(result);
 }
 
 Composite Compositor::Impl::render(const FrameView& view, const PlateReader& plate, bool want_layers) {
@@ -170,7 +186,7 @@ Composite Compositor::Impl::render(const FrameView& view, const PlateReader& pla
   Composite result;
   if (virtual_rect.empty() && !want_layers) return result;
 
-  bool glares = false;
+  bool glares = false, has_whole_plate = false;
   PixelRect output_rect = virtual_rect;
   if (!virtual_rect.empty()) {
     {
@@ -178,6 +194,12 @@ Composite Compositor::Impl::render(const FrameView& view, const PlateReader& pla
       relight(view.tag_from_light);
     }
     update_view(view);
+    if (mirrors_receiver(view)) {
+      upload_plate(plate, whole);
+      const auto pass = clock.pass("plate light");
+      composite.draw_plate_light(view);
+      has_whole_plate = true;
+    }
     make_targets(virtual_rect, want_layers);
     glares = draw_virtual_layer(view, virtual_rect);
     if (glares) {
@@ -187,13 +209,10 @@ Composite Compositor::Impl::render(const FrameView& view, const PlateReader& pla
   }
   if (want_layers) output_rect = whole;
 
-  {
-    const auto pass = clock.pass("plate");
-    composite.upload(fetch(plate, output_rect));
-  }
+  if (!has_whole_plate) upload_plate(plate, output_rect);
   {
     const auto pass = clock.pass("composite");
-    composite.draw(view,
+    composite.draw(view, output_rect,
                    {virtual_rect, object_target ? &object_target->color() : nullptr,
                     shadow_target ? &shadow_target->texture() : nullptr, glares ? &glare : nullptr},
                    settings.glare, want_layers);

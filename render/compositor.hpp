@@ -37,6 +37,7 @@ struct RenderScene {
   Transfer transfer;
   ShRgb light;  ///< transfer.bands^2 coefficients
   ReflectionMap reflections;
+  glm::vec3 probe_in_tag_m{0.0f};  ///< where the probe was captured
 };
 
 struct GlareSettings {
@@ -51,7 +52,9 @@ struct GlareSettings {
 
 struct CompositorSettings {
   GlareSettings glare;
-  int samples = 4;            ///< multisampling of the object's edges
+  int samples = 4;  ///< multisampling of the object's edges
+  int reflection_rays =
+      16;  ///< over the lobe of a rough surface; 0: only the probe is mirrored, neither the object nor the receiver
   std::string shader_folder;  ///< overrides the embedded shaders where not empty
 };
 

@@ -1,6 +1,9 @@
 #include "render/gl_objects.hpp"
 
 #include <algorithm>
+#include <bit>
+
+#include <algorithm>
 
 #include "catchlight.hpp"
 
@@ -33,17 +36,34 @@ GlBuffer make_buffer(const std::string& label, std::size_t bytes, const void* da
   return buffer;
 }
 
-GlTexture make_texture_2d(const std::string& label, GLenum format, int width, int height, GLenum filter) {
+namespace {
+
+GlTexture make_clamped_texture_2d(const std::string& label, GLenum format, int width, int height, int levels) {
   check_size(label, width, height, GL_MAX_TEXTURE_SIZE);
   GLuint id = 0;
   glCreateTextures(GL_TEXTURE_2D, 1, &id);
   GlTexture texture(id);
   set_label(GL_TEXTURE, id, label);
-  glTextureStorage2D(id, 1, format, width, height);
-  glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, static_cast<GLint>(filter));
-  glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, static_cast<GLint>(filter));
+  glTextureStorage2D(id, levels, format, width, height);
   glTextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  return texture;
+}
+
+}  // namespace
+
+GlTexture make_texture_2d(const std::string& label, GLenum format, int width, int height, GLenum filter) {
+  GlTexture texture = make_clamped_texture_2d(label, format, width, height, 1);
+  glTextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, static_cast<GLint>(filter));
+  glTextureParameteri(texture.id(), GL_TEXTURE_MAG_FILTER, static_cast<GLint>(filter));
+  return texture;
+}
+
+GlTexture make_mipmapped_texture_2d(const std::string& label, GLenum format, int width, int height) {
+  const int levels = std::bit_width(static_cast<unsigned>(std::max(width, height)));
+  GlTexture texture = make_clamped_texture_2d(label, format, width, height, levels);
+  glTextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTextureParameteri(texture.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   return texture;
 }
 

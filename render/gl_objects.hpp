@@ -82,6 +82,9 @@ GlBuffer make_buffer(const std::string& label, std::span<const T> data) {
 /// One mip level, clamped to its edge, `filter` both ways. Throws Error where the size exceeds what GL offers.
 GlTexture make_texture_2d(const std::string& label, GLenum format, int width, int height, GLenum filter = GL_NEAREST);
 
+/// All mip levels, filtered between texels and levels, clamped to its edge.
+GlTexture make_mipmapped_texture_2d(const std::string& label, GLenum format, int width, int height);
+
 /// `samples` < 2: one sample a pixel.
 GlRenderbuffer make_renderbuffer(const std::string& label, GLenum format, int width, int height, int samples);
 

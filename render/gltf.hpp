@@ -1,6 +1,9 @@
 // Parts of the glTF reader: accessors as plain arrays, materials with their base colour textures.
 #pragma once
 
+// As tiny_gltf.cpp has it: pictures are decoded elsewhere.
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
 #include <tiny_gltf.h>
 
 #include <optional>

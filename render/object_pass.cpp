@@ -7,9 +7,13 @@
 
 #include "render/reflection_texture.hpp"
 #include "render/shader.hpp"
+#include "render/skip_bvh.hpp"
+#include "shaders/interface.h"
 
 namespace catchlight::render {
 namespace {
+
+constexpr GLint kMaterialLocation = 0;
 
 /// Triangle numbers grouped by material.
 std::vector<std::size_t> triangles_by_material(const Mesh& mesh) {
@@ -37,6 +41,7 @@ ObjectPass::ObjectPass(const Mesh& mesh, LitPoints vertices_lit, const Reflectio
       brdf_table_(make_brdf_texture()) {
   upload_mesh(mesh);
   upload_materials(mesh);
+  upload_hierarchy(mesh);
 }
 
 void ObjectPass::upload_mesh(const Mesh& mesh) {
@@ -61,18 +66,27 @@ void ObjectPass::upload_mesh(const Mesh& mesh) {
 }
 
 void ObjectPass::upload_materials(const Mesh& mesh) {
-  GLint alignment = 1;
-  glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &alignment);
-  material_stride_ = (static_cast<int>(sizeof(shader_interface::MaterialUniforms)) + alignment - 1) / alignment * alignment;
-  std::vector<std::byte> bytes(mesh.materials.size() * static_cast<std::size_t>(material_stride_));
-  for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
-    const Material& material = mesh.materials[i];
+  std::vector<shader_interface::SurfaceMaterial> materials;
+  for (const Material& material : mesh.materials) {
     // Where nothing is mirrored face on, nothing is at grazing angles: f90 follows f0 below 2 % (Lagarde & de Rousiers 2014).
     const float f90 = std::clamp(50.0f * material.dielectric_f0, 0.0f, 1.0f);
-    new (&bytes[i * static_cast<std::size_t>(material_stride_)]) shader_interface::MaterialUniforms{
-        {material.base_color, material.metallic}, {material.emissive, material.roughness}, {material.dielectric_f0, f90, 0, 0}};
+    materials.push_back(
+        {{material.base_color, material.metallic}, {material.emissive, material.roughness}, {material.dielectric_f0, f90, 0, 0}});
+    reflects_ = reflects_ || material.metallic > 0 || material.dielectric_f0 > 0;
   }
-  materials_ = make_buffer("materials", std::span<const std::byte>(bytes));
+  materials_ = make_buffer("materials", std::span<const shader_interface::SurfaceMaterial>(materials));
+}
+
+void ObjectPass::upload_hierarchy(const Mesh& mesh) {
+  SkipBvh bvh;
+  if (reflects_) bvh = build_skip_bvh(mesh);
+  std::vector<glm::uvec4> triangles;
+  for (const std::uint32_t triangle : bvh.triangles) {
+    const std::uint32_t* corner = &mesh.indices[3 * static_cast<std::size_t>(triangle)];
+    triangles.emplace_back(corner[0], corner[1], corner[2], mesh.triangle_material[triangle]);
+  }
+  bvh_nodes_ = make_buffer("hierarchy", std::span<const SkipNode>(bvh.nodes));
+  bvh_triangles_ = make_buffer("hierarchy's triangles", std::span<const glm::uvec4>(triangles));
 }
 
 void ObjectPass::draw(const ObjectTarget& target, const PixelRect& rect, int frame_width, int frame_height) const {
@@ -92,9 +106,12 @@ void ObjectPass::draw(const ObjectTarget& target, const PixelRect& rect, int fra
   glBindVertexArray(vertex_array_.id());
   glBindTextureUnit(TEXTURE_PROBE, probe_.id());
   glBindTextureUnit(TEXTURE_BRDF, brdf_table_.id());
+  const GLuint storage[] = {bvh_nodes_.id(), bvh_triangles_.id(), vertices_.id(), exit_radiance_.radiance(), materials_.id()};
+  static_assert(BINDING_BVH_NODES == 0 && BINDING_BVH_TRIANGLES == 1 && BINDING_VERTICES == 2 && BINDING_EXIT_RADIANCE == 3 &&
+                BINDING_MATERIALS == 4);
+  glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, std::size(storage), storage);
   for (const Batch& batch : batches_) {
-    glBindBufferRange(GL_UNIFORM_BUFFER, BINDING_MATERIAL, materials_.id(),
-                      static_cast<GLintptr>(batch.material) * material_stride_, sizeof(shader_interface::MaterialUniforms));
+    glUniform1i(kMaterialLocation, batch.material);
     const auto offset = static_cast<std::uintptr_t>(batch.first_index) * sizeof(std::uint32_t);
     glDrawElements(GL_TRIANGLES, batch.index_count, GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset));
   }

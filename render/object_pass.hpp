@@ -1,4 +1,5 @@
-// Draws the object: diffuse light from its transfer, reflections from the probe; antialiased in linear light.
+// Draws the object: diffuse light from its transfer, and what it mirrors of itself, the receiver and the probe; antialiased in
+// linear light.
 #pragma once
 
 #include <string>
@@ -19,7 +20,11 @@ class ObjectPass {
   /// The object's exit radiance under `light`; needed again whenever the light turns.
   void light_by(const LightTransfer& light) { exit_radiance_.evaluate(light); }
 
-  /// Into `target`, of which `rect` (pixels of a frame of that size) is drawn. Needs the ViewUniforms bound.
+  /// Some material mirrors anything.
+  bool reflects() const { return reflects_; }
+
+  /// Into `target`, of which `rect` (pixels of a frame of that size) is drawn. Needs the ViewUniforms bound, and where their
+  /// options say so the receiver (ReceiverPass::bind) and the plate's light.
   void draw(const ObjectTarget& target, const PixelRect& rect, int frame_width, int frame_height) const;
 
  private:
@@ -30,14 +35,15 @@ class ObjectPass {
 
   void upload_mesh(const Mesh& mesh);
   void upload_materials(const Mesh& mesh);
+  void upload_hierarchy(const Mesh& mesh);
 
   GlProgram program_;
   LitPoints exit_radiance_;
-  GlBuffer vertices_, indices_, materials_;
+  GlBuffer vertices_, indices_, materials_, bvh_nodes_, bvh_triangles_;
   GlVertexArray vertex_array_;
   GlTexture probe_, brdf_table_;
   std::vector<Batch> batches_;
-  int material_stride_ = 0;  ///< bytes
+  bool reflects_ = false;
 };
 
 }  // namespace catchlight::render

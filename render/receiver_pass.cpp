@@ -35,6 +35,11 @@ void ReceiverPass::light_by(const LightTransfer& light, const ShRgb& light_tag) 
   uniforms_.update(block);
 }
 
+void ReceiverPass::bind() const {
+  glBindTextureUnit(TEXTURE_RATIO, irradiance_.id());
+  uniforms_.bind(BINDING_RECEIVER);
+}
+
 void ReceiverPass::draw(const ColorTarget<1>& target, const PixelRect& rect, int frame_width, int frame_height) const {
   reset_state();
   glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
@@ -43,8 +48,7 @@ void ReceiverPass::draw(const ColorTarget<1>& target, const PixelRect& rect, int
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glUseProgram(program_.id());
   glBindVertexArray(no_attributes_.id());
-  glBindTextureUnit(TEXTURE_RATIO, irradiance_.id());
-  uniforms_.bind(BINDING_RECEIVER);
+  bind();
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 2 * grid_.columns, grid_.rows - 1);
   glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
 }

@@ -17,6 +17,9 @@ class ReceiverPass {
   /// The points' irradiance under `light`; needed again whenever the light turns.
   void light_by(const LightTransfer& light, const ShRgb& light_tag);
 
+  /// For shaders that include receiver.glsl.
+  void bind() const;
+
   /// Ratios within `rect` (pixels of a frame of that size) into `target`, 1 beside the grid. Needs the ViewUniforms bound.
   void draw(const ColorTarget<1>& target, const PixelRect& rect, int frame_width, int frame_height) const;
 

@@ -32,7 +32,7 @@ void main() {
   vec4 over = reached ? texelFetch(object, in_virtual, 0) : vec4(0.0);
   vec3 ratio = reached ? texelFetch(shadow, in_virtual, 0).rgb : vec3(1.0);
   vec3 glare = glare_at(pixel);
-  vec3 code = texelFetch(plate, local, 0).rgb;
+  vec3 code = texelFetch(plate, pixel - composite.plate_rect.xy, 0).rgb;
 
   // Black is light the lens scatters: no shadow takes it away, and the object stands behind it too.
   int transfer = composite.modes.x;

@@ -19,18 +19,23 @@ using glm::vec4;
 
 // Uniform blocks
 #define BINDING_VIEW 0
-#define BINDING_MATERIAL 1
-#define BINDING_LIGHT 2
-#define BINDING_RECEIVER 3
-#define BINDING_COMPOSITE 4
+#define BINDING_LIGHT 1
+#define BINDING_RECEIVER 2
+#define BINDING_COMPOSITE 3
 
 // Storage blocks
 #define BINDING_TRANSFER 0
+#define BINDING_BVH_NODES 0
+#define BINDING_BVH_TRIANGLES 1
+#define BINDING_VERTICES 2
+#define BINDING_EXIT_RADIANCE 3
+#define BINDING_MATERIALS 4
 
 // Textures
 #define TEXTURE_PROBE 0
 #define TEXTURE_BRDF 1
-#define TEXTURE_RATIO 0
+#define TEXTURE_RATIO 2
+#define TEXTURE_PLATE_LIGHT 3
 #define TEXTURE_OBJECT 0
 #define TEXTURE_SHADOW 1
 #define TEXTURE_PLATE 2
@@ -65,13 +70,17 @@ UNIFORM_BLOCK(ViewUniforms, BINDING_VIEW) {
   vec4 radial_denominator;  // k4 k5 k6
   vec4 tangential;          // p1 p2
   vec4 lens_limit;          // radius, distorted radius, slope
+  vec4 frame;               // width, height, focal length in pixels
+  vec4 probe_in_tag_m;      // where the probe was captured; w: how deep below its triangles a smoothed surface may start a ray
+  ivec4 options;            // rays over a rough surface's lobe (0: the probe alone is mirrored), receiver mirrored
 } BLOCK_NAME(view);
 
-UNIFORM_BLOCK(MaterialUniforms, BINDING_MATERIAL) {
+// In a storage block (std430).
+struct SurfaceMaterial {
   vec4 base_color_metallic;
   vec4 emissive_roughness;
   vec4 dielectric;          // f0, f90
-} BLOCK_NAME(material);
+};
 
 UNIFORM_BLOCK(LightUniforms, BINDING_LIGHT) {
   ivec4 count;              // coefficients
@@ -88,6 +97,7 @@ UNIFORM_BLOCK(ReceiverUniforms, BINDING_RECEIVER) {
 UNIFORM_BLOCK(CompositeUniforms, BINDING_COMPOSITE) {
   ivec4 output_rect;
   ivec4 virtual_rect;       // what object and shadow textures hold
+  ivec4 plate_rect;         // what the plate texture holds
   ivec4 modes;              // TransferFunction, codes end at 1, glare drawn
   vec4 black;
   vec4 changed_code;        // x: smallest difference of codes that counts

@@ -1,9 +1,9 @@
-// Diffuse exit radiance from the transfer, and what the surface mirrors of the whole probe: split-sum (Karis 2013), GGX, Schlick's Fresnel.
+// Diffuse exit radiance from the transfer, and what the surface mirrors: split-sum (Karis 2013), GGX, Schlick's Fresnel.
 #version 450 core
 #include "interface.h"
-
-layout(binding = TEXTURE_PROBE) uniform samplerCube probe;   // level by perceptual roughness
-layout(binding = TEXTURE_BRDF) uniform sampler2D brdf_table;  // scale and bias of F0 by (n.v, roughness)
+#include "lens.glsl"
+#include "receiver.glsl"
+#include "reflection.glsl"
 
 in Surface {
   vec3 position_tag_m;
@@ -11,6 +11,7 @@ in Surface {
   vec3 color;
   vec3 exit_radiance;
 } surface;
+layout(location = 0) uniform int material_index;
 
 // Exposed linear in the plate's primaries.
 layout(location = 0) out vec4 object_color;
@@ -25,14 +26,6 @@ vec3 shading_normal(vec3 to_viewer) {
   return n_v >= 0.0 ? n : normalize(n - n_v * to_viewer);
 }
 
-// A pixel of a curved mirror sees many texels: average over the pixel's footprint (a 2 x 2 grid of it).
-vec3 mirrored_radiance(vec3 direction, float level) {
-  vec3 dx = 0.25 * dFdx(direction), dy = 0.25 * dFdy(direction);
-  if (level >= 1.0) return textureLod(probe, direction, level).rgb;
-  return 0.25 * (textureLod(probe, direction + dx + dy, level).rgb + textureLod(probe, direction + dx - dy, level).rgb +
-                 textureLod(probe, direction - dx + dy, level).rgb + textureLod(probe, direction - dx - dy, level).rgb);
-}
-
 vec3 exposed(vec3 radiance) {
   vec3 light = view.exposure.rgb * (mat3(view.plate_from_rec709) * radiance);
   // Never NaN, infinite or negative (out of the plate's gamut): one such pixel would spread with the glare.
@@ -40,21 +33,16 @@ vec3 exposed(vec3 radiance) {
 }
 
 void main() {
+  SurfaceMaterial m = materials[material_index];
   vec3 to_viewer = normalize(view.camera_in_tag_m.xyz - surface.position_tag_m);
   vec3 n = shading_normal(to_viewer);
-  float roughness = material.emissive_roughness.a;
-  float metallic = material.base_color_metallic.a;
-  vec2 table = texture(brdf_table, vec2(clamp(dot(n, to_viewer), 0.0, 1.0), roughness)).rg;
-
-  vec3 f0 = mix(vec3(material.dielectric.x), material.base_color_metallic.rgb * surface.color, metallic);
-  float f90 = mix(material.dielectric.y, 1.0, metallic);
-  vec3 direction = mat3(view.light_from_tag) * reflect(-to_viewer, n);
-  float level = roughness * float(textureQueryLevels(probe) - 1);
-  vec3 reflected = mirrored_radiance(direction, level) * (f0 * table.x + f90 * table.y);
+  vec4 factor = mirror_factor(m, surface.color, dot(n, to_viewer));
+  vec3 reflected = vec3(0.0);
+  if (m.base_color_metallic.a > 0.0 || m.dielectric.x > 0.0)
+    reflected = factor.rgb * mirrored_radiance(surface.position_tag_m, n, to_viewer, m.emissive_roughness.a);
 
   // What the dielectric boundary mirrors does not reach the pigment below it.
-  float entering = 1.0 - (material.dielectric.x * table.x + material.dielectric.y * table.y);
-  vec3 radiance = surface.exit_radiance * entering + reflected + material.emissive_roughness.rgb;
+  vec3 radiance = surface.exit_radiance * factor.a + reflected + m.emissive_roughness.rgb;
 
   object_color = vec4(exposed(radiance), 1.0);
   reflection_color = vec4(exposed(reflected), 1.0);

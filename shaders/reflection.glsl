@@ -1,0 +1,89 @@
+// What a glossy surface mirrors: rays over the GGX lobe meet the object itself, the receiver or the probe.
+#include "rays.glsl"
+#include "surroundings.glsl"
+
+layout(binding = TEXTURE_BRDF) uniform sampler2D brdf_table;  // scale and bias of F0 by (n.v, roughness)
+layout(std430, binding = BINDING_EXIT_RADIANCE) readonly buffer ExitRadianceBlock { float exit_radiance_floats[]; };
+layout(std430, binding = BINDING_MATERIALS) readonly buffer MaterialBlock { SurfaceMaterial materials[]; };
+
+const float kPi = 3.14159265;
+
+// Split-sum factor of what is mirrored, and the share of light that enters a dielectric.
+vec4 mirror_factor(SurfaceMaterial m, vec3 color, float n_v) {
+  vec2 table = texture(brdf_table, vec2(clamp(n_v, 0.0, 1.0), m.emissive_roughness.a)).rg;
+  float metallic = m.base_color_metallic.a;
+  vec3 f0 = mix(vec3(m.dielectric.x), m.base_color_metallic.rgb * color, metallic);
+  float f90 = mix(m.dielectric.y, 1.0, metallic);
+  return vec4(f0 * table.x + f90 * table.y, 1.0 - (m.dielectric.x * table.x + m.dielectric.y * table.y));
+}
+
+vec3 exit_radiance_of(uint vertex) {
+  return vec3(exit_radiance_floats[3u * vertex], exit_radiance_floats[3u * vertex + 1u], exit_radiance_floats[3u * vertex + 2u]);
+}
+
+// Light that the object sends towards -direction from where a ray met it; its own mirror image is not traced further.
+vec3 object_radiance(RayHit hit, vec3 origin, vec3 direction, float spread) {
+  vec3 w = vec3(1.0 - hit.weights.x - hit.weights.y, hit.weights);
+  uvec4 t = hit.triangle;
+  SurfaceMaterial m = materials[t.w];
+  vec3 n = normalize(w.x * vertex_vec3(t.x, 1u) + w.y * vertex_vec3(t.y, 1u) + w.z * vertex_vec3(t.z, 1u));
+  vec3 color = w.x * vertex_vec3(t.x, 2u) + w.y * vertex_vec3(t.y, 2u) + w.z * vertex_vec3(t.z, 2u);
+  vec3 diffuse = w.x * exit_radiance_of(t.x) + w.y * exit_radiance_of(t.y) + w.z * exit_radiance_of(t.z);
+  vec4 factor = mirror_factor(m, color, -dot(n, direction));
+  float roughness = m.emissive_roughness.a;
+  vec3 mirrored = surroundings(origin + hit.distance_m * direction, reflect(direction, n), spread + roughness * roughness, roughness);
+  return diffuse * factor.a + mirrored * factor.rgb + m.emissive_roughness.rgb;
+}
+
+vec3 radiance_along(vec3 origin, vec3 direction, float spread, float roughness) {
+  RayHit nearest = RayHit(uvec4(0u), 1e30, vec2(0.0));
+  if (view.options.x > 0) trace(origin, direction, view.probe_in_tag_m.w, nearest);
+  if (nearest.distance_m < 1e30) return object_radiance(nearest, origin, direction, spread);
+  return surroundings(origin, direction, spread, roughness);
+}
+
+vec2 hammersley(int i, int count) { return vec2((float(i) + 0.5) / float(count), float(bitfieldReverse(uint(i))) * 2.3283064365386963e-10); }
+
+// Visible normal of the GGX distribution (Heitz, "Sampling the GGX Distribution of Visible Normals", JCGT 2018). `v` in the surface's
+// frame, z along its normal.
+vec3 visible_normal(vec3 v, float alpha, vec2 u) {
+  vec3 stretched = normalize(vec3(alpha * v.xy, v.z));
+  float length_squared = dot(stretched.xy, stretched.xy);
+  vec3 t1 = length_squared > 0.0 ? vec3(-stretched.y, stretched.x, 0.0) * inversesqrt(length_squared) : vec3(1.0, 0.0, 0.0);
+  vec3 t2 = cross(stretched, t1);
+  float r = sqrt(u.x), phi = 2.0 * kPi * u.y, s = 0.5 * (1.0 + stretched.z);
+  float p1 = r * cos(phi), p2 = mix(sqrt(1.0 - p1 * p1), r * sin(phi), s);
+  vec3 n = p1 * t1 + p2 * t2 + sqrt(max(0.0, 1.0 - p1 * p1 - p2 * p2)) * stretched;
+  return normalize(vec3(alpha * n.xy, max(0.0, n.z)));
+}
+
+mat3 frame_around(vec3 n) {
+  vec3 helper = abs(n.z) < 0.9 ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0);
+  vec3 x = normalize(cross(helper, n));
+  return mat3(x, cross(n, x), n);
+}
+
+// Mean radiance over the lobe around the mirror direction. Each ray stands for its share of the lobe: the probe is read at the
+// roughness of that share.
+vec3 mirrored_radiance(vec3 position, vec3 n, vec3 to_viewer, float roughness) {
+  vec3 mirror = reflect(-to_viewer, n);
+  vec3 dx = dFdx(mirror), dy = dFdy(mirror);
+  int rays = roughness < 0.1 ? 4 : max(view.options.x, 1);
+  float share = pow(float(rays), -0.25) * roughness, alpha = roughness * roughness;
+  float spread = share * share + 0.25 * length(dx + dy);
+  mat3 surface_frame = frame_around(n);
+  vec3 viewer = to_viewer * surface_frame, sum = vec3(0.0);
+  vec3 origin = position + n * (0.05 * view.probe_in_tag_m.w);
+  float weights = 0.0;
+  for (int i = 0; i < rays; ++i) {
+    vec2 u = hammersley(i, rays);
+    vec3 direction = reflect(-to_viewer, surface_frame * visible_normal(viewer, alpha, u)) + (u.x - 0.5) * dx + (u.y - 0.5) * dy;
+    float above = dot(direction, n);
+    if (above <= 0.0) continue;
+    // Smith's shadowing of the ray given the view, G2 / G1 (Heitz 2014), up to terms common to all rays.
+    float weight = 2.0 * above / (above + sqrt(alpha * alpha + (1.0 - alpha * alpha) * above * above));
+    sum += weight * radiance_along(origin, normalize(direction), spread, share);
+    weights += weight;
+  }
+  return weights > 0.0 ? sum / weights : probe_radiance(mirror, roughness);
+}
