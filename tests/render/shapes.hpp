@@ -62,7 +62,8 @@ inline Mesh sphere(const glm::vec3& middle, float radius, int rows, bool inward 
   for (int row = 0; row <= rows; ++row) {
     for (int column = 0; column <= columns; ++column) {
       const double theta = std::numbers::pi * row / rows, phi = 2 * std::numbers::pi * (column % columns) / columns;
-      const glm::vec3 out(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
+      const double sine = row % rows == 0 ? 0 : std::sin(theta);  // a pole is one place
+      const glm::vec3 out(sine * std::cos(phi), sine * std::sin(phi), std::cos(theta));
       mesh.vertices.push_back({middle + radius * out, inward ? -out : out});
     }
   }
