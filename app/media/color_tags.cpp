@@ -97,8 +97,8 @@ bool is_full_range(const AVFrame& picture, const PixelLayout& layout) {
   return picture.color_range == AVCOL_RANGE_JPEG;
 }
 
-CodeFromRgb::CodeFromRgb(const AVFrame& picture, const PixelLayout& layout) : max_code_((1 << layout.depth()) - 1) {
-  if (layout.model == ColorModel::rgb) {
+CodeFromRgb::CodeFromRgb(const AVFrame& picture, const PixelLayout& layout) : max_code_(layout.max_code()) {
+  if (layout.model == ColorModel::rgb || layout.is_float) {
     matrix_ = glm::dmat3(max_code_);
     return;
   }

@@ -65,7 +65,7 @@ bool is_rgb(int format) {
 // limited-range YUV, and the largest code shifted beside full-range YUV.
 double white_for_swscale(const AVFrame& yuv) {
   const PixelLayout layout = pixel_layout(yuv.format).value();
-  return is_full_range(yuv, layout) ? ((1 << layout.depth()) - 1) << (16 - layout.depth()) : 255 * 256;
+  return is_full_range(yuv, layout) ? layout.max_code() << (16 - layout.depth()) : 255 * 256;
 }
 
 bool is_deep_rgb(int format) {

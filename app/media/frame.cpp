@@ -81,8 +81,7 @@ class LumaMaker {
         third_(picture, layout, layout.model == ColorModel::rgb ? 2 : 0),
         linear_(picture.color_trc == AVCOL_TRC_LINEAR),
         // Limited-range codes of any depth are the 8-bit ones, shifted; full-range codes fill their depth.
-        scale_(is_full_range(picture, layout) ? 255.0 / ((1 << std::min(layout.depth(), 16)) - 1)
-                                              : 1.0 / (1 << (std::min(layout.depth(), 16) - 8))) {}
+        scale_(is_full_range(picture, layout) ? 255.0 / layout.max_code() : 1.0 / (1 << (layout.depth() - 8))) {}
 
   std::uint8_t operator()(int x, int y) const {
     const double code = layout_.is_float ? 255 * float_code(x, y) : scale_ * integer_code(x, y);

@@ -26,6 +26,7 @@ struct PixelLayout {
 
   bool is_subsampled() const { return chroma_shift_x != 0 || chroma_shift_y != 0; }
   int depth() const { return components[0].depth; }
+  int max_code() const { return is_float ? 1 : (1 << depth()) - 1; }
 };
 
 /// None for palettes, bit-packed, Bayer, hardware and other formats that a source has to convert first.

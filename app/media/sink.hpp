@@ -20,9 +20,11 @@ struct SinkOptions {
 class MediaSink {
  public:
   /// By name: `.mp4 .mkv .mov` H.264, `.avi .nut` FFV1 (or as `codec` says), `%04d.png` a sequence numbered like the frames, `-`
-  /// or `.y4m` y4m. Audio of `audio_from` (the source's location; empty: none) is copied over unchanged for the written time
-  /// span, timestamps and rates are the source's, colour tags too. Keeps the source's pixel format where the codec has it. Throws
-  /// Error / UsageError: exists without `overwrite`, unwritable folder, unknown extension, output equal to the input.
+  /// or `.y4m` y4m. The first written frame is at time 0; from there timestamps are the source's own (Matroska rounds them to
+  /// ms), and so are rate, colour tags and audio (copied packet by packet for the written time span; not from cameras, streams
+  /// and into y4m). Keeps the source's pixel format where the codec has it, else takes the nearest. Throws UsageError: exists
+  /// without `overwrite`, unknown extension, codec, preset, output equal to the input; Error: folder missing or unwritable, audio
+  /// that the container cannot hold.
   static std::unique_ptr<MediaSink> open(const std::string& path, const std::string& source_location, const MediaSource& source,
                                          const SinkOptions& options);
   virtual ~MediaSink() = default;

@@ -230,22 +230,23 @@ void VideoSource::check_complete() {
   if (missing_s > slack_s) throw_damaged("the last " + std::to_string(missing_s) + " s of its announced duration are missing");
 }
 
-Frame VideoSource::finish_frame(FramePtr picture) {
-  check_frame(*picture);
-  const auto rate = av_guess_frame_rate(input_.get(), stream_, picture.get());
+// Timestamps that are missing or do not rise are made up from the rate.
+void VideoSource::complete_times(AVFrame& picture) {
+  const AVRational rate = av_guess_frame_rate(input_.get(), stream_, &picture);
   const std::int64_t usual_duration =
       rate.num > 0 ? std::max<std::int64_t>(1, av_rescale_q(1, av_inv_q(rate), stream_->time_base)) : 1;
-  std::int64_t pts = picture->best_effort_timestamp;
+  std::int64_t pts = picture.best_effort_timestamp;
   if (pts == AV_NOPTS_VALUE) pts = delivered_ == 0 ? 0 : last_pts_ + usual_duration;
   if (delivered_ > 0) pts = std::max(pts, last_pts_ + 1);
-  picture->pts = last_pts_ = pts;
   if (delivered_ == 0) first_pts_ = pts;
-  picture->time_base = stream_->time_base;
-  if (picture->pkt_duration <= 0) picture->pkt_duration = usual_duration;
-  if (picture->sample_aspect_ratio.num == 0)
-    picture->sample_aspect_ratio = av_guess_sample_aspect_ratio(input_.get(), stream_, picture.get());
+  picture.pts = last_pts_ = pts;
+  picture.time_base = stream_->time_base;
+  if (picture.pkt_duration <= 0) picture.pkt_duration = usual_duration;
+}
 
+FramePtr VideoSource::turn_upright(FramePtr picture) {
   if (!orientation_) {
+    // A picture's own wish (EXIF) goes before the file's.
     const AVFrameSideData* own = av_frame_get_side_data(picture.get(), AV_FRAME_DATA_DISPLAYMATRIX);
     const std::uint8_t* matrix = own ? own->data : av_stream_get_side_data(stream_, AV_PKT_DATA_DISPLAYMATRIX, nullptr);
     try {
@@ -255,18 +256,31 @@ Frame VideoSource::finish_frame(FramePtr picture) {
     }
   }
   av_frame_remove_side_data(picture.get(), AV_FRAME_DATA_DISPLAYMATRIX);
-  picture = orientation_->apply(with_plain_samples(std::move(picture)));
-  const PixelLayout layout = pixel_layout(picture->format).value();
-  if (layout.is_float && picture->color_trc == AVCOL_TRC_UNSPECIFIED) picture->color_trc = AVCOL_TRC_LINEAR;
+  return orientation_->apply(std::move(picture));
+}
+
+void VideoSource::check_shape(const AVFrame& picture) {
+  SourceInfo& info = request_.info;
   if (delivered_ == 0) {
-    format_ = picture->format;
-    request_.info.width_px = picture->width;
-    request_.info.height_px = picture->height;
-  } else if (format_ != picture->format || picture->width != request_.info.width_px ||
-             picture->height != request_.info.height_px) {
+    format_ = picture.format;
+    info.width_px = picture.width;
+    info.height_px = picture.height;
+  } else if (format_ != picture.format || picture.width != info.width_px || picture.height != info.height_px) {
     throw_damaged("from there on its pictures have another size or pixel format");
   }
-  const double time_s = static_cast<double>(pts - first_pts_) * av_q2d(stream_->time_base);
+}
+
+Frame VideoSource::finish_frame(FramePtr picture) {
+  check_frame(*picture);
+  complete_times(*picture);
+  if (picture->sample_aspect_ratio.num == 0) {
+    picture->sample_aspect_ratio = av_guess_sample_aspect_ratio(input_.get(), stream_, picture.get());
+  }
+  picture = turn_upright(with_plain_samples(std::move(picture)));
+  if (pixel_layout(picture->format)->is_float && picture->color_trc == AVCOL_TRC_UNSPECIFIED)
+    picture->color_trc = AVCOL_TRC_LINEAR;
+  check_shape(*picture);
+  const double time_s = static_cast<double>(picture->pts - first_pts_) * av_q2d(stream_->time_base);
   return {std::shared_ptr<const AVFrame>(std::move(picture)), request_.info.first_number + delivered_++, time_s};
 }
 

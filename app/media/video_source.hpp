@@ -35,6 +35,9 @@ class VideoSource final : public MediaSource {
   void send(const AVPacket* packet);
   void note_damage(const std::string& reason);
   void check_frame(const AVFrame& picture);
+  void complete_times(AVFrame& picture);
+  FramePtr turn_upright(FramePtr picture);
+  void check_shape(const AVFrame& picture);
   void check_complete();
   Frame finish_frame(FramePtr picture);
   [[noreturn]] void throw_damaged(const std::string& reason);
