@@ -15,10 +15,15 @@
 
 namespace catchlight::render {
 
-/// latlong, cube: OpenEXR ImfEnvmap.h. angular: Debevec's light probe (u = Dx r, v = Dy r, r = acos(Dz) / (pi sqrt(Dx^2+Dy^2)),
-/// +z in the middle). mirror_ball: orthographic photograph of a mirror sphere, the camera at +z; the middle reflects +z.
-/// cube_cross: vertical cross, 3 x 4 faces.
-enum class ProbeLayout { latlong, angular, mirror_ball, cube_cross, cube };
+/// OpenEXR's layouts have their outermost texel centres on +-180 degrees, the poles and the cube's edges; the others have texel
+/// borders there.
+enum class ProbeLayout {
+  latlong,      ///< ImfEnvmap.h, as above
+  angular,      ///< Debevec's light probe: u = Dx r, v = Dy r, r = acos(Dz) / (pi sqrt(Dx^2 + Dy^2)); +z in the middle, +y up
+  mirror_ball,  ///< orthographic photograph of a mirror sphere, the camera at +z: the middle reflects +z
+  cube_cross,   ///< HDRShop's and cmft's 3 x 4 faces, OpenGL's orientation: +y; -x +z +x; -y; -z turned by half a turn
+  cube,         ///< ImfEnvmap.h: faces stacked +x -x +y -y +z -z
+};
 
 /// "latlong", "angular", "mirror-ball", "cube-cross", "cube"; throws Error naming them for anything else.
 ProbeLayout probe_layout_from_name(const std::string& name);
@@ -43,7 +48,7 @@ double texel_solid_angle(ProbeLayout layout, int width, int height, int x, int y
 /// Bilinear radiance in `direction`, continuous across the layout's seams.
 glm::vec3 sample(const Probe& probe, const glm::dvec3& direction);
 
-/// Same light in another layout. `width` 0 keeps the angular resolution at the equator.
+/// Same light in another layout, averaged over each texel. `width` 0 keeps the angular resolution at the equator.
 Probe convert(const Probe& probe, ProbeLayout layout, int width = 0);
 
 struct ProbeLoadOptions {
@@ -52,10 +57,12 @@ struct ProbeLoadOptions {
   bool strict = false;  ///< refuse NaN, infinite or negative texels instead of treating them as 0
 };
 
-/// Reads OpenEXR or Radiance HDR. Warns once with count and first position of bad texels. Throws Error (file named) otherwise.
+/// Reads OpenEXR or Radiance HDR. Warns once with count and first position of bad texels. Texels that look in one direction
+/// (seams, poles) get their common mean. Throws Error (file named) otherwise.
 Probe load_probe(const std::string& path, const ProbeLoadOptions& options, const WarningHandler& warn);
 
-/// Writes OpenEXR (with the envmap attribute where OpenEXR knows the layout) or Radiance HDR, by extension.
+/// Writes OpenEXR (with the envmap attribute where OpenEXR knows the layout; in half, or in float where a value exceeds 65504) or
+/// Radiance HDR, by extension.
 void save_probe(const std::string& path, const Probe& probe);
 
 /// c_i = sum of radiance * y_i * solid angle over all texels; no sampling noise.

@@ -41,7 +41,12 @@ struct Transfer {
 /// A grid that covers where the shadow matters: the mesh's footprint widened with its height.
 ReceiverGrid receiver_grid_for(const Mesh& mesh_tag, int points_across);
 
-/// `mesh_tag` is in the tag frame. Throws Error for a mesh without triangles.
+/// `mesh_tag` is in the tag frame. Values are the closed form of the open hemisphere less the occluded rays, so exact where
+/// nothing is in the way. Faces block light from either side, and send it back (with bounces) from their front. The receiver does
+/// not block the object's light: what it sends up is in the probe. Rays follow the vertex normal's hemisphere: where that dips
+/// into the solid they are blocked. The receiver's shadow fades to nothing over the grid's outer 4 cells; points covered by the
+/// object take their neighbours' values. Throws Error for a mesh without triangles or options out of range (1 to 10 bands, 1 ray
+/// or more).
 Transfer bake_transfer(const Mesh& mesh_tag, const ReceiverGrid& grid, const TransferOptions& options,
                        const ProgressHandler& progress);
 
