@@ -14,6 +14,9 @@ class FrameOutput {
  public:
   virtual ~FrameOutput() = default;
 
+  /// Frames that are not wanted are tracked, but neither drawn nor written.
+  virtual bool wants_frame(std::int64_t /*number*/) const { return true; }
+
   /// Whether write() needs composite.layers.
   virtual bool wants_layers() const { return false; }
 

@@ -123,6 +123,7 @@ Stage build_stage(const SceneSettings& scene, Log& log, Report& report) {
 OverlayResult run_overlay(MediaSource& source, FrameTrack& track, Stage& stage, const SceneSettings& scene,
                           const CameraModel& camera, FrameOutput& output, const FrameRange& range, Log& log, Report& report) {
   const OverlayResult result = run(source, track, range, "overlay", log, report, [&](const Frame& frame, const TrackRow& row) {
+    if (!output.wants_frame(frame.number())) return;
     render::Composite composite;
     if (row.found) {
       const render::FrameView view = frame_view(camera, scene, stage.built, row, frame);

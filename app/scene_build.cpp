@@ -17,6 +17,9 @@ namespace {
 constexpr double kEdgesAcrossDiagonal = 24;
 constexpr std::size_t kMaxVertices = 200'000;
 
+/// Of the object's transfer.
+constexpr std::size_t kTransferBytes = std::size_t{512} << 20;
+
 /// The error of low-discrepancy rays falls about as one over their number; four over it was found to stay under the tolerance.
 constexpr double kRayErrorFactor = 4;
 
@@ -73,10 +76,22 @@ int choose_rays(const SceneSettings& settings, std::vector<PlanEntry>& plan) {
   return rays;
 }
 
+/// As many as asked for, or fewer for a mesh whose transfer would not fit the memory set apart for it.
+int choose_bands(const SceneSettings& settings, std::size_t vertices, std::vector<PlanEntry>& plan) {
+  int bands = settings.quality.bands;
+  std::string reason = origin_of(settings, "quality.bands");
+  if (!settings.is_by_hand("quality.bands")) {
+    while (bands > 3 && vertices * static_cast<std::size_t>(bands * bands) * sizeof(glm::vec3) > kTransferBytes) --bands;
+    if (bands < settings.quality.bands) reason = std::to_string(vertices) + " vertices";
+  }
+  plan.push_back({"bands", std::to_string(bands), reason});
+  return bands;
+}
+
 void bake(BuiltScene& built, const SceneSettings& settings, const WarningHandler& warn, const ProgressHandler& progress) {
   const render::Mesh& mesh = built.scene.mesh;
   render::TransferOptions options;
-  options.bands = settings.quality.bands;
+  options.bands = choose_bands(settings, mesh.vertices.size(), built.plan);
   options.rays = built.rays = choose_rays(settings, built.plan);
   options.bounces = settings.quality.bounces;
   const bool has_receiver = settings.receiver.plane == "tag";
@@ -85,7 +100,6 @@ void bake(BuiltScene& built, const SceneSettings& settings, const WarningHandler
   built.transfer_key = render::transfer_key(mesh, grid, options);
   built.scene.transfer = render::load_or_bake_transfer(mesh, grid, options, render::default_cache_folder(), progress, warn,
                                                        &built.transfer_was_cached);
-  built.plan.push_back({"bands", std::to_string(options.bands), origin_of(settings, "quality.bands")});
   built.plan.push_back({"bounces", std::to_string(options.bounces), origin_of(settings, "quality.bounces")});
   built.plan.push_back({"shadow",
                         has_receiver ? std::to_string(grid.columns) + "x" + std::to_string(grid.rows) + " points" : "none",
@@ -117,7 +131,7 @@ BuiltScene build_render_scene(const SceneSettings& settings, const WarningHandle
   built.light_follows_camera = settings.probe.fixed_to == "camera";
   built.scene.mesh = build_mesh(settings, warn);
   bake(built, settings, warn, progress);
-  built.scene.light = render::rotate_sh(render::project_to_sh(built.probe, settings.quality.bands), built.light_from_probe);
+  built.scene.light = render::rotate_sh(render::project_to_sh(built.probe, built.scene.transfer.bands), built.light_from_probe);
   built.scene.reflections = render::prefilter_reflections(built.probe, built.light_from_probe);
   built.scene.probe_in_tag_m = glm::vec3(0, 0, half_height_m(built.scene.mesh));
   if (!built.light_follows_camera) built.still_irradiance_over_pi = irradiance_over_pi(built, glm::dmat3(1.0));

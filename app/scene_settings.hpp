@@ -65,7 +65,7 @@ struct SceneSettings {
 
   struct Quality {
     double tolerance = 0.004;
-    int bands = 6;
+    int bands = 10;
     int rays = 1024;
     int bounces = 2;
     int samples = 4;

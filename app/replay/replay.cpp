@@ -33,16 +33,14 @@ class MeasuringOutput : public FrameOutput {
  public:
   explicit MeasuringOutput(std::string folder) : folder_(std::move(folder)) {}
 
+  bool wants_frame(std::int64_t number) const override { return fs::exists(path("truth", number)); }
+
   void write(const Frame& plate, const render::Composite& composite) override {
-    char name[32];
-    std::snprintf(name, sizeof name, "%04lld.png", static_cast<long long>(plate.number()));
-    const fs::path truth_path = fs::path(folder_) / "truth" / name;
-    if (!fs::exists(truth_path)) return;
     const cv::Mat ours = bgr_of(composite.rect.empty() ? plate : plate.with_composite(composite)), plate_bgr = bgr_of(plate);
-    const cv::Mat truth = read(truth_path, cv::IMREAD_COLOR, ours.size());
-    const fs::path clean_path = fs::path(folder_) / "plate_clean" / name;
+    const cv::Mat truth = read(path("truth", plate.number()), cv::IMREAD_COLOR, ours.size());
+    const fs::path clean_path = path("plate_clean", plate.number());
     const cv::Mat clean = fs::exists(clean_path) ? read(clean_path, cv::IMREAD_COLOR, ours.size()) : plate_bgr;
-    const cv::Mat mask = read(fs::path(folder_) / "mask" / name, cv::IMREAD_GRAYSCALE, ours.size());
+    const cv::Mat mask = read(path("mask", plate.number()), cv::IMREAD_GRAYSCALE, ours.size());
     comparisons.push_back(compare_with_truth(ours, truth, plate_bgr, clean, mask));
     sheet_rows.push_back(sheet_row(plate_bgr, ours, truth));
   }
@@ -51,6 +49,12 @@ class MeasuringOutput : public FrameOutput {
   std::vector<cv::Mat> sheet_rows;
 
  private:
+  fs::path path(const char* kind, std::int64_t number) const {
+    char name[32];
+    std::snprintf(name, sizeof name, "%04lld.png", static_cast<long long>(number));
+    return fs::path(folder_) / kind / name;
+  }
+
   static cv::Mat read(const fs::path& path, int mode, const cv::Size& size) {
     const cv::Mat image = cv::imread(path.string(), mode);
     if (image.empty()) throw Error(path.string() + ": missing or not a picture; every frame of truth/ needs its mask/");

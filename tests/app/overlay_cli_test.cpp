@@ -279,7 +279,7 @@ TEST_F(OverlayCommand, MeshWithoutTrianglesIsRefused) {
 
 TEST_F(OverlayCommand, MeshWithoutNormalsIsDrawn) {
   const std::string copy = copied_recording(1);
-  std::ofstream(copy + "/bare.obj") << "v -.03 0 -.03\nv .03 0 -.03\nv 0 0 .03\nv 0 .06 0\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n";
+  std::ofstream(copy + "/bare.obj") << "v -0.03 0 -0.03\nv 0.03 0 -0.03\nv 0 0 0.03\nv 0 0.06 0\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n";
   const CommandResult result = overlay(copy, out_, {"--object.mesh", copy + "/bare.obj"});
   EXPECT_EQ(result.exit_code, 0) << result.error;
 }
