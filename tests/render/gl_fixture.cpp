@@ -1,5 +1,6 @@
 #include "tests/render/gl_fixture.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/constants.hpp>
@@ -125,7 +126,8 @@ ReflectionMap reflections_of(const std::function<glm::vec3(const glm::dvec3&)>& 
 }
 
 RenderScene constant_scene(Mesh mesh, const Material& material, const glm::vec3& radiance, int bands) {
-  mesh.materials.assign(1, material);
+  mesh.materials.resize(std::max<std::size_t>(mesh.materials.size(), 1));
+  mesh.materials.front() = material;
   RenderScene scene{.mesh = mesh,
                     .transfer = unshadowed_transfer(mesh, bands),
                     .light = constant_light(radiance, bands),

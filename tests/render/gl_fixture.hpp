@@ -36,7 +36,7 @@ ShRgb constant_light(const glm::vec3& radiance, int bands);
 /// Cube faces filled by `radiance` of the direction; `levels` copies of it.
 ReflectionMap reflections_of(const std::function<glm::vec3(const glm::dvec3&)>& radiance, int face_size, int levels = 1);
 
-/// A scene of a mesh with one material under constant light.
+/// A scene of a mesh under constant light; `material` becomes its first one.
 RenderScene constant_scene(Mesh mesh, const Material& material, const glm::vec3& radiance, int bands = 3);
 
 /// Settings for tests whose light exceeds white without being about glare.

@@ -138,9 +138,8 @@ TEST_F(ProjectionGl, TheNearerSurfaceHidesTheFarther) {
   mesh.vertices.insert(mesh.vertices.end(), far.vertices.begin(), far.vertices.end());
   mesh.indices.insert(mesh.indices.end(), {4, 5, 6, 4, 6, 7});
   mesh.triangle_material.insert(mesh.triangle_material.end(), {1, 1});
-  RenderScene scene = constant_scene(mesh, red, glm::vec3(1));
-  scene.mesh.materials.push_back(green);
-  scene.transfer = unshadowed_transfer(scene.mesh, 3);
+  mesh.materials = {red, green};
+  const RenderScene scene = constant_scene(mesh, red, glm::vec3(1));
   FrameView view = view_from_above();
   view.color.transfer = TransferFunction::linear;
   const Composite composite = Compositor(scene, {}).render(view, plate_u8(0));
