@@ -60,7 +60,7 @@ Mesh import_with_assimp(const std::string& path) {
   Assimp::Importer importer;
   const aiScene* scene =
       importer.ReadFile(path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_PreTransformVertices);
-  if (!scene) throw Error(path + ": cannot be read: " + importer.GetErrorString());
+  if (!scene) throw Error(path + ": cannot be read as a mesh of triangles: " + importer.GetErrorString());
   if (scene->mNumMaterials > 65536) throw Error(path + ": more than 65536 materials");
   Mesh mesh;
   for (unsigned i = 0; i < scene->mNumMaterials; ++i) mesh.materials.push_back(material_of(*scene->mMaterials[i]));
