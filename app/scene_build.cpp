@@ -20,7 +20,7 @@ constexpr std::size_t kMaxVertices = 200'000;
 /// Of the object's transfer.
 constexpr std::size_t kTransferBytes = std::size_t{512} << 20;
 
-/// The error of low-discrepancy rays falls about as one over their number; four over it was found to stay under the tolerance.
+/// The error of low-discrepancy rays falls about as one over their number.
 constexpr double kRayErrorFactor = 4;
 
 double diagonal_m(const render::Mesh& mesh) {

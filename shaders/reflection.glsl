@@ -42,7 +42,11 @@ vec3 radiance_along(vec3 origin, vec3 direction, float spread, float roughness) 
   return surroundings(origin, direction, spread, roughness);
 }
 
-vec2 hammersley(int i, int count) { return vec2((float(i) + 0.5) / float(count), float(bitfieldReverse(uint(i))) * 2.3283064365386963e-10); }
+// Points whose mean is (0.5, 0.5) for any power of two.
+vec2 hammersley(int i, int count) {
+  float inverse_bits = float(bitfieldReverse(uint(i))) * 2.3283064365386963e-10;
+  return vec2((float(i) + 0.5) / float(count), inverse_bits + 0.5 / float(count));
+}
 
 // Visible normal of the GGX distribution (Heitz, "Sampling the GGX Distribution of Visible Normals", JCGT 2018). `v` in the surface's
 // frame, z along its normal.
@@ -69,7 +73,9 @@ vec3 mirrored_radiance(vec3 position, vec3 n, vec3 to_viewer, float roughness) {
   vec3 mirror = reflect(-to_viewer, n);
   vec3 dx = dFdx(mirror), dy = dFdy(mirror);
   int rays = roughness < 0.1 ? 4 : max(view.options.x, 1);
-  float share = pow(float(rays), -0.25) * roughness, alpha = roughness * roughness;
+  // Without rays of its own the whole lobe is read from the prefiltered probe, in the mirror direction.
+  bool traced = view.options.x > 0;
+  float share = traced ? pow(float(rays), -0.25) * roughness : roughness, alpha = traced ? roughness * roughness : 0.0;
   float spread = share * share + 0.25 * length(dx + dy);
   mat3 surface_frame = frame_around(n);
   vec3 viewer = to_viewer * surface_frame, sum = vec3(0.0);
