@@ -63,8 +63,10 @@ void set_quality(VideoCodec codec, const SinkOptions& options, AVRational frame_
   if (codec == VideoCodec::h264) {
     to.set("crf", std::to_string(options.crf));
     to.set("preset", options.preset);
-    // x264 would take a rate of thousands a second from the time base, and choose a level that players refuse.
-    to.set("x264-params", "fps=" + std::to_string(frame_rate.num) + "/" + std::to_string(frame_rate.den));
+    // x264 would take a rate of thousands a second from the time base, and choose a level that players refuse. Its macroblock
+    // tree, on such a time base, gave one of two results for the same frames in one run out of seven; the same frames must give
+    // the same bytes.
+    to.set("x264-params", "fps=" + std::to_string(frame_rate.num) + "/" + std::to_string(frame_rate.den) + ":mbtree=0");
   } else if (codec == VideoCodec::ffv1) {
     to.set("level", "3");
     to.set("slices", "4");
