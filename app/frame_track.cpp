@@ -11,15 +11,11 @@ namespace catchlight::app {
 
 namespace {
 
-tracking::TagTarget tag_target(const SceneSettings& scene) {
-  return {scene.tag.family, scene.tag.id, scene.tag.size_m};
-}
-
 /// Follows the exposure through the frames in which the tag's cells can be read.
 class ExposureTrack {
  public:
   ExposureTrack(const CameraModel& camera, const SceneSettings& scene)
-      : camera_(camera), target_(tag_target(scene)), matcher_(scene.tag.white_albedo, scene.tag.black_albedo) {}
+      : camera_(camera), target_(scene.tag.target()), matcher_(scene.tag.white_albedo, scene.tag.black_albedo) {}
 
   /// `row` has its pose and state. A pose that was only predicted may not lie on the cells: the exposure is held.
   void add_exposure(const Frame& frame, TrackRow& row) {
@@ -47,7 +43,7 @@ class ExposureTrack {
 class TagTrack : public FrameTrack {
  public:
   TagTrack(const CameraModel& camera, const SceneSettings& scene)
-      : tracker_(camera, tag_target(scene)), exposure_(camera, scene) {}
+      : tracker_(camera, scene.tag.target(), scene.tag.tracker_options()), exposure_(camera, scene) {}
 
   TrackRow row(const Frame& frame) override {
     const tracking::TagObservation seen = tracker_.track(frame.luma(), frame.time_s());
@@ -57,7 +53,7 @@ class TagTrack : public FrameTrack {
     row.found = seen.state != tracking::TrackState::lost;
     row.camera_from_tag = seen.camera_from_tag;
     row.state = seen.state;
-    row.corner_rms_px = seen.reprojection_rms_px;
+    row.corner_rms_px = seen.corner_sigma_px;
     row.ambiguity = seen.ambiguity;
     exposure_.add_exposure(frame, row);
     return row;

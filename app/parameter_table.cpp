@@ -7,6 +7,12 @@ namespace {
 
 using Scene = SceneSettings;
 
+std::vector<std::string> same_or_family() {
+  std::vector<std::string> choices = tracking::tag_families();
+  choices.insert(choices.begin(), "same");
+  return choices;
+}
+
 std::vector<Parameter> make_table() {
   return {
       {"tag.family", "", "Family of the printed tag.",
@@ -19,6 +25,19 @@ std::vector<Parameter> make_table() {
        RealKind{[](Scene& s) -> double& { return s.tag.white_albedo; }, 0.01, 1}},
       {"tag.black_albedo", "", "Reflectance of the print's black.",
        RealKind{[](Scene& s) -> double& { return s.tag.black_albedo; }, 0, 1}},
+
+      {"tag.refinement", "",
+       "What follows detection, from exact to cheap: the whole pattern (pose, blur and light at once), the four edges, nothing.",
+       ChoiceKind{[](Scene& s) -> std::string& { return s.tag.refinement; }, {"direct", "corners", "none"}}},
+      {"tag.bundle.family", "", "Family of a further tag of a board.",
+       ChoiceKind{[](Scene& s) -> std::string& { return s.tag.bundle.back().family; }, same_or_family()}},
+      {"tag.bundle.id", "", "Its number.", IntegerKind{[](Scene& s) -> int& { return s.tag.bundle.back().id; }, 0, 1'000'000}},
+      {"tag.bundle.size_m", "m", "Its size; 0: the same as the first tag's.",
+       RealKind{[](Scene& s) -> double& { return s.tag.bundle.back().size_m; }, 0, 100}},
+      {"tag.bundle.tag_from_this.translation_m", "m", "Where its centre is in the first tag's frame.",
+       VectorKind{[](Scene& s) -> glm::dvec3& { return s.tag.bundle.back().translation_m; }, -1000, 1000}},
+      {"tag.bundle.tag_from_this.rotation_deg", "deg", "How it is turned there: about x first, then y, then z.",
+       VectorKind{[](Scene& s) -> glm::dvec3& { return s.tag.bundle.back().rotation_deg; }, -360, 360}},
 
       {"object.mesh", "", "glTF 2.0 (`.glb`, `.gltf`), OBJ or PLY file, in metres.",
        PathKind{[](Scene& s) -> std::string& { return s.objects.back().mesh; }}},

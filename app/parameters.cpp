@@ -104,6 +104,16 @@ bool is_of_object(const Parameter& parameter) {
   return parameter.key.starts_with("object.");
 }
 
+bool is_of_bundle(const Parameter& parameter) {
+  return parameter.key.starts_with("tag.bundle.");
+}
+
+/// Keys of what may be repeated need one of them to speak of.
+void make_first(SceneSettings& settings, const Parameter& parameter) {
+  if (is_of_object(parameter) && settings.objects.empty()) settings.objects.emplace_back();
+  if (is_of_bundle(parameter) && settings.tag.bundle.empty()) settings.tag.bundle.emplace_back();
+}
+
 std::optional<ParameterValue> vector_from_text(const std::string& text) {
   const std::vector<std::string> fields = split(text, ',');
   if (fields.size() != 3) return std::nullopt;
@@ -140,7 +150,7 @@ ParameterValue value_from_text(const Parameter& parameter, const std::string& te
 }  // namespace
 
 void set_parameter(SceneSettings& settings, const Parameter& parameter, const ParameterValue& value) {
-  if (is_of_object(parameter) && settings.objects.empty()) settings.objects.emplace_back();
+  make_first(settings, parameter);
   if (!std::visit(Store{settings, value}, parameter.kind))
     throw Error(parameter.key + " is " + shown(value) + "; expected " + expected_text(parameter));
   settings.by_hand.insert(parameter.key);
@@ -149,6 +159,9 @@ void set_parameter(SceneSettings& settings, const Parameter& parameter, const Pa
 void set_parameter_from_text(SceneSettings& settings, const std::string& key, const std::string& text) {
   const Parameter* parameter = find_parameter(key);
   if (!parameter) throw UsageError("--" + key + ": there is no such parameter; `catchlight params` lists them");
+  if (is_of_bundle(*parameter) && settings.tag.bundle.size() > 1)
+    throw UsageError("--" + key + ": the board has " + std::to_string(settings.tag.bundle.size()) +
+                     " further tags; change the one you mean in the scene file");
   if (is_of_object(*parameter)) {
     if (settings.objects.size() > 1)
       throw UsageError("--" + key + ": the scene has " + std::to_string(settings.objects.size()) +
@@ -166,7 +179,7 @@ void set_parameter_from_text(SceneSettings& settings, const std::string& key, co
 
 std::string parameter_text(const SceneSettings& settings, const Parameter& parameter) {
   SceneSettings copy = settings;  // the table's accessors give what they can also set
-  if (is_of_object(parameter) && copy.objects.empty()) copy.objects.emplace_back();
+  make_first(copy, parameter);
   return std::visit(Overloaded{[&](const RealKind& kind) { return number_text(kind.access(copy)); },
                                [&](const IntegerKind& kind) { return std::to_string(kind.access(copy)); },
                                [&](const FlagKind& kind) { return std::string(kind.access(copy) ? "true" : "false"); },

@@ -13,7 +13,7 @@
 
 namespace catchlight::app {
 
-/// Where a value lives. Rows named `object.*` mean the scene's last object.
+/// Where a value lives. Rows named `object.*` mean the scene's last object, `tag.bundle.*` the board's last tag.
 template <class T>
 using Access = T& (*)(SceneSettings&);
 
@@ -65,7 +65,7 @@ const Parameter* find_parameter(const std::string& key);
 using ParameterValue = std::variant<bool, std::int64_t, double, std::string, glm::dvec3>;
 
 /// Checks type, range and choice, stores, and notes in `by_hand`. Throws Error: "KEY is 3 ...; expected ..." without saying
-/// where. An `object.*` key makes the first object where there is none.
+/// where. An `object.*` or `tag.bundle.*` key makes the first one where there is none.
 void set_parameter(SceneSettings& settings, const Parameter& parameter, const ParameterValue& value);
 
 /// set_parameter from text as an option gives it: `0.5`, `true`, `auto`, `0.8,0.8,0.8`. Throws UsageError naming `--KEY`: unknown

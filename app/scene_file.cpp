@@ -64,13 +64,24 @@ class Reader {
     }
   }
 
+  void read_bundle(const toml::node& node) {
+    const toml::array* tags = node.as_array();
+    if (!tags || !tags->is_array_of_tables())
+      fail(node.source(), "expected [[tag.bundle]], in double brackets, once for each further tag of the board");
+    for (const toml::node& tag : *tags) {
+      settings_.tag.bundle.emplace_back();
+      read_table("tag.bundle.", *tag.as_table());
+      if (!tag.as_table()->contains("id")) fail(tag.source(), "this [[tag.bundle]] has no id; give `id = NUMBER`");
+    }
+  }
+
   void read_table(const std::string& prefix, const toml::table& table) {
     for (const auto& [key, node] : table) read_entry(prefix, key, node);
   }
 
   void read_entry(const std::string& prefix, const toml::key& key, const toml::node& node) {
     const std::string name = prefix + std::string(key.str());
-    if (name == "tag.bundle") fail(key.source(), "[[tag.bundle]]: boards of several tags are not supported yet");
+    if (name == "tag.bundle") return read_bundle(node);
     if (name == kMatrixKey) return read_matrix(key, node);
     if (const Parameter* parameter = find_parameter(name)) return read_value(*parameter, node);
     if (std::find(names_.begin(), names_.end(), name) == names_.end())

@@ -9,6 +9,7 @@
 
 #include "catchlight.hpp"
 #include "render/compositor.hpp"
+#include "tracking/tracker.hpp"
 
 namespace catchlight::app {
 
@@ -21,6 +22,19 @@ struct SceneSettings {
     int id = 0;
     double size_m = 0.08;
     double white_albedo = 0.8, black_albedo = 0.04;
+    std::string refinement = "direct";
+
+    /// A further tag of a board.
+    struct Bundled {
+      std::string family = "same";  ///< "same": as the tag itself
+      int id = 0;
+      double size_m = 0;  ///< 0: as the tag itself
+      glm::dvec3 translation_m{0.0}, rotation_deg{0.0};
+    };
+    std::vector<Bundled> bundle;
+
+    tracking::TagTarget target() const;
+    tracking::TrackerOptions tracker_options() const;
   } tag;
 
   struct Object {

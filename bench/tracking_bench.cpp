@@ -31,22 +31,20 @@ Footage footage(const benchmark::State& state, bool with_lens) {
   return result;
 }
 
-TrackerOptions options_of(const benchmark::State& state) {
-  TrackerOptions options;
-  options.quad_decimate = static_cast<double>(state.range(2));
-  return options;
+double decimation(const benchmark::State& state) {
+  return static_cast<double>(state.range(2));
 }
 
 void detection(benchmark::State& state) {
   const Footage input = footage(state, false);
-  Detector detector("tag36h11", options_of(state));
-  for (auto _ : state) benchmark::DoNotOptimize(detector.detect(input.frame.luma()));
+  Detector detector("tag36h11", {});
+  for (auto _ : state) benchmark::DoNotOptimize(detector.detect(input.frame.luma(), decimation(state)));
 }
 
 void refinement(benchmark::State& state, bool with_lens) {
   const Footage input = footage(state, with_lens);
   const TagLayout layout = tag_layout("tag36h11", 0);
-  const auto corners_px = Detector("tag36h11", options_of(state)).detect(input.frame.luma()).at(0).corners_px;
+  const auto corners_px = Detector("tag36h11", {}).detect(input.frame.luma(), decimation(state)).at(0).corners_px;
   for (auto _ : state) benchmark::DoNotOptimize(refine_corners(input.frame.luma(), input.scene.camera, corners_px, layout));
 }
 
@@ -58,7 +56,7 @@ void pose(benchmark::State& state) {
 
 void tracker(benchmark::State& state) {
   const Footage input = footage(state, false);
-  Tracker tracker(input.scene.camera, {}, options_of(state));
+  Tracker tracker(input.scene.camera, {});
   double time_s = 0;
   for (auto _ : state) benchmark::DoNotOptimize(tracker.track(input.frame.luma(), time_s += 0.04));
 }

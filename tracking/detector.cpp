@@ -19,8 +19,6 @@ constexpr int kSmallestImagePx = 16;
 void check_options(const TrackerOptions& options) {
   if (options.max_hamming < 0 || options.max_hamming > 2)
     throw Error("corrected bits (max_hamming) must be 0, 1 or 2, not " + std::to_string(options.max_hamming));
-  if (!(options.quad_decimate >= 1 && options.quad_decimate <= 8))
-    throw Error("detector decimation (quad_decimate) must be from 1 to 8, not " + std::to_string(options.quad_decimate));
   if (options.threads < 1 || options.threads > 256)
     throw Error("detector threads must be from 1 to 256, not " + std::to_string(options.threads));
 }
@@ -42,7 +40,6 @@ Detector::Detector(const std::string& family, const TrackerOptions& options) {
   check_options(options);
   impl_ = std::make_unique<Impl>(Impl{create_family(family)});
   apriltag_detector_add_family_bits(impl_->detector.get(), impl_->family.get(), options.max_hamming);
-  impl_->detector->quad_decimate = static_cast<float>(options.quad_decimate);
   impl_->detector->nthreads = options.threads;
 }
 
@@ -50,7 +47,10 @@ Detector::~Detector() = default;
 Detector::Detector(Detector&&) noexcept = default;
 Detector& Detector::operator=(Detector&&) noexcept = default;
 
-std::vector<Detection> Detector::detect(const LumaView& luma) {
+std::vector<Detection> Detector::detect(const LumaView& luma, double decimate) {
+  if (!(decimate >= 1 && decimate <= 8))
+    throw Error("the detector's decimation must be from 1 to 8, not " + std::to_string(decimate));
+  impl_->detector->quad_decimate = static_cast<float>(decimate);
   std::vector<Detection> found;
   if (std::min(luma.width_px, luma.height_px) < kSmallestImagePx) return found;
   // The library only reads the image, but its struct is not const-correct.

@@ -28,8 +28,9 @@ class Detector {
   Detector(Detector&&) noexcept;
   Detector& operator=(Detector&&) noexcept;
 
-  /// In an order that does not depend on the number of threads.
-  std::vector<Detection> detect(const LumaView& luma);
+  /// Edges are sought in a picture made `decimate` times smaller (from 1 to 8), bits read in the full one. In an order that does
+  /// not depend on the number of threads.
+  std::vector<Detection> detect(const LumaView& luma, double decimate = 1);
 
  private:
   struct Impl;

@@ -59,6 +59,13 @@ std::optional<glm::dvec2> undistort_px(const CameraModel& camera, const glm::dve
   return std::nullopt;
 }
 
+glm::dmat2 distortion_jacobian(const CameraModel& camera, const glm::dvec2& ideal_px) {
+  glm::dmat2 jacobian = distort(camera.distortion, normalized(camera, ideal_px)).jacobian;
+  jacobian[0].y *= camera.fy_px / camera.fx_px;
+  jacobian[1].x *= camera.fx_px / camera.fy_px;
+  return jacobian;
+}
+
 std::optional<glm::dvec2> project_ideal_px(const CameraModel& camera, const glm::dvec3& point_camera_m) {
   if (!(point_camera_m.z > 0)) return std::nullopt;
   return pixels(camera, glm::dvec2(point_camera_m) / point_camera_m.z);

@@ -1,15 +1,13 @@
 #include "tracking/pose_memory.hpp"
 
 #include <algorithm>
-#include <glm/gtc/quaternion.hpp>
+#include <cmath>
+
+#include "tracking/rotation.hpp"
 
 namespace catchlight::tracking {
 namespace {
 
-/// Refined corners are about this good per axis; calibration and lens models are hardly better.
-constexpr double kCornerNoisePx = 0.05;
-/// What that expectation weighs against the frames seen, and how fast those are forgotten.
-constexpr double kExpectationFrames = 3, kNoiseMemory = 0.95;
 /// How far a frame's orientation strays from steady motion: noise of a small tag, and the hand's acceleration.
 constexpr double kTurnNoise_rad = 0.09, kTurnNoise_rad_per_s = 0.6;
 /// A continuation is never quite impossible, nor a hypothesis quite dead: history has to stay correctable.
@@ -18,21 +16,6 @@ constexpr double kLeastContinuity = 1e-3, kLeastProbability = 1e-4;
 constexpr double kPositionGain = 0.4, kVelocityGain = 0.1;
 /// The other pose has to be this much likelier before the choice changes.
 constexpr double kSwitchOdds = 3;
-
-glm::dvec3 rotation_vector(const glm::dmat3& rotation) {
-  glm::dquat q = glm::quat_cast(rotation);
-  if (q.w < 0) q = -q;
-  const glm::dvec3 axis(q.x, q.y, q.z);
-  const double sine = glm::length(axis);
-  if (sine < 1e-12) return 2.0 * axis;
-  return axis * (2 * std::atan2(sine, q.w) / sine);
-}
-
-glm::dmat3 rotation_matrix(const glm::dvec3& rotation_vector_rad) {
-  const double angle = glm::length(rotation_vector_rad);
-  if (angle < 1e-12) return glm::dmat3(1.0);
-  return glm::mat3_cast(glm::angleAxis(angle, rotation_vector_rad / angle));
-}
 
 double angle_between(const glm::dmat3& a, const glm::dmat3& b) {
   return glm::length(rotation_vector(b * glm::transpose(a)));
@@ -43,11 +26,6 @@ double continuity(const glm::dmat3& predicted, const glm::dmat3& seen, double dt
   const double turn = angle_between(predicted, seen);
   const double sigma = std::hypot(kTurnNoise_rad, kTurnNoise_rad_per_s * dt_s);
   return std::exp(-0.5 * turn * turn / (sigma * sigma));
-}
-
-/// Eight coordinates less six unknowns leave two degrees of freedom: the best pose's 4·rms² estimates two variances.
-double variance_px2(double best_rms_px) {
-  return 2 * best_rms_px * best_rms_px;
 }
 
 }  // namespace
@@ -76,7 +54,7 @@ PoseMemory::Hypothesis PoseMemory::continued(const Hypothesis& before, const Rig
 }
 
 /// Joined to the likeliest hypothesis it may continue; its probability is the sum over all of them.
-PoseMemory::Hypothesis PoseMemory::with_history(const PoseHypothesis& seen, double dt_s) const {
+PoseMemory::Hypothesis PoseMemory::with_history(const PoseCandidate& seen, double dt_s) const {
   Hypothesis now{seen.camera_from_tag, seen.camera_from_tag};
   double probability = count_ == 0 ? 1 : 0, largest = 0;
   for (std::size_t j = 0; j < count_; ++j) {
@@ -102,27 +80,16 @@ std::size_t PoseMemory::heir(std::span<const Hypothesis> now, double dt_s) const
   return turn_1 < turn_0 ? 1 : 0;
 }
 
-void PoseMemory::learn_noise(double best_rms_px) {
-  noise_sum_px2_ = kNoiseMemory * noise_sum_px2_ + variance_px2(best_rms_px);
-  noise_weight_ = kNoiseMemory * noise_weight_ + 1;
-}
-
-std::size_t PoseMemory::choose(std::span<const PoseHypothesis> hypotheses, double time_s) {
-  const std::span<const PoseHypothesis> seen = hypotheses.first(std::min<std::size_t>(hypotheses.size(), 2));
+std::size_t PoseMemory::choose(std::span<const PoseCandidate> candidates, double time_s) {
+  const std::span<const PoseCandidate> seen = candidates.first(std::min<std::size_t>(candidates.size(), 2));
   const double dt_s = time_s - time_s_;
-  double best_rms_px = std::numeric_limits<double>::infinity();
-  for (const PoseHypothesis& hypothesis : seen) best_rms_px = std::min(best_rms_px, hypothesis.reprojection_rms_px);
-  // One frame's own residual says little about the noise: the smallest would make chance look like certainty.
-  learn_noise(best_rms_px);
-  const double expected_px2 = kExpectationFrames * kCornerNoisePx * kCornerNoisePx;
-  const double noise_px2 = (noise_sum_px2_ + expected_px2) / (noise_weight_ + kExpectationFrames);
-
+  double best = -std::numeric_limits<double>::infinity();
+  for (const PoseCandidate& candidate : seen) best = std::max(best, candidate.log_likelihood);
   std::array<Hypothesis, 2> now{};
   double sum = 0;
   for (std::size_t i = 0; i < seen.size(); ++i) {
     now[i] = with_history(seen[i], dt_s);
-    const double worse_px2 = 4 * (seen[i].reprojection_rms_px * seen[i].reprojection_rms_px - best_rms_px * best_rms_px);
-    now[i].probability *= std::exp(-0.5 * worse_px2 / noise_px2);
+    now[i].probability *= std::exp(seen[i].log_likelihood - best);
     sum += now[i].probability;
   }
   for (std::size_t i = 0; i < seen.size(); ++i)
@@ -140,6 +107,11 @@ std::size_t PoseMemory::choose(std::span<const PoseHypothesis> hypotheses, doubl
 std::optional<RigidTransform> PoseMemory::predict(double time_s) const {
   if (count_ == 0) return std::nullopt;
   return moved(hypotheses_[chosen_], hypotheses_[chosen_].camera_from_tag, time_s - time_s_);
+}
+
+double PoseMemory::doubt() const {
+  if (count_ < 2) return 0;
+  return hypotheses_[1 - chosen_].probability / (hypotheses_[0].probability + hypotheses_[1].probability);
 }
 
 void PoseMemory::forget() {

@@ -5,18 +5,21 @@
 #include <optional>
 #include <span>
 
-#include "tracking/planar_pose.hpp"
+#include "tracking/tracker.hpp"
 
 namespace catchlight::tracking {
 
-/// A hidden Markov chain of two states, the two hypotheses of each frame. A hypothesis is likely when it fits its corners
+/// A hidden Markov chain of two states, the two hypotheses of each frame. A hypothesis is likely when it fits its frame
 /// and when it continues, at constant velocity, a hypothesis that was likely in the frame before. So evidence adds up
 /// over frames, follows each hypothesis through the moment where both coincide, and corrects a wrong first choice; what
 /// one frame says is bounded, so that no single one overrules a long history.
 class PoseMemory {
  public:
-  /// `hypotheses`: one or two, from planar_poses(). Returns the index of the chosen one.
-  std::size_t choose(std::span<const PoseHypothesis> hypotheses, double time_s);
+  /// `candidates`: one or two. Returns the index of the chosen one.
+  std::size_t choose(std::span<const PoseCandidate> candidates, double time_s);
+
+  /// Probability that the other pose is the right one; 0 where there is none.
+  double doubt() const;
 
   /// The chosen pose moved on to `time_s` at the velocity of the last frames; empty before the first frame.
   std::optional<RigidTransform> predict(double time_s) const;
@@ -37,14 +40,12 @@ class PoseMemory {
   };
   static RigidTransform moved(const Hypothesis& from, const RigidTransform& pose, double dt_s);
   static Hypothesis continued(const Hypothesis& before, const RigidTransform& camera_from_tag, double dt_s);
-  Hypothesis with_history(const PoseHypothesis& seen, double dt_s) const;
+  Hypothesis with_history(const PoseCandidate& seen, double dt_s) const;
   std::size_t heir(std::span<const Hypothesis> now, double dt_s) const;
-  void learn_noise(double best_rms_px);
 
   std::array<Hypothesis, 2> hypotheses_{};
   std::size_t count_ = 0, chosen_ = 0;
   double time_s_ = 0;
-  double noise_sum_px2_ = 0, noise_weight_ = 0;  ///< of the corners' variance per axis
 };
 
 }  // namespace catchlight::tracking

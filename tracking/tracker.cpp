@@ -1,127 +1,152 @@
 #include "tracking/tracker.hpp"
 
 #include <algorithm>
-#include <optional>
+#include <cmath>
 
+#include "tracking/corner_noise.hpp"
 #include "tracking/corner_refinement.hpp"
-#include "tracking/detector.hpp"
-#include "tracking/families.hpp"
-#include "tracking/lens.hpp"
+#include "tracking/direct_refinement.hpp"
 #include "tracking/planar_pose.hpp"
+#include "tracking/pose_covariance.hpp"
 #include "tracking/pose_memory.hpp"
+#include "tracking/tag_search.hpp"
 
 namespace catchlight::tracking {
 namespace {
 
-using Quad = std::array<glm::dvec2, 4>;
-
-glm::dvec2 center(const Quad& quad) {
-  return (quad[0] + quad[1] + quad[2] + quad[3]) / 4.0;
-}
-
-/// Square root of the area (shoelace formula).
-double side_px(const Quad& quad) {
-  double doubled = 0;
-  for (int i = 0; i < 4; ++i) {
-    const glm::dvec2 a = quad[i], b = quad[(i + 1) % 4];
-    doubled += a.x * b.y - a.y * b.x;
-  }
-  return std::sqrt(std::abs(doubled) / 2);
-}
-
-std::optional<Quad> project_corners(const CameraModel& camera, const RigidTransform& camera_from_tag, double size_m) {
-  Quad quad;
-  const auto corners_m = tag_corners_m(size_m);
-  for (int i = 0; i < 4; ++i) {
-    const auto corner = project_px(camera, camera_from_tag * corners_m[i]);
-    if (!corner) return std::nullopt;
-    quad[i] = *corner;
-  }
-  return quad;
-}
-
-/// Without a prediction: fewest corrected bits, then the larger.
-const Detection* most_trusted(const std::vector<Detection>& candidates) {
-  const auto worse = [](const Detection& a, const Detection& b) {
-    if (a.hamming != b.hamming) return a.hamming > b.hamming;
-    return side_px(a.corners_px) < side_px(b.corners_px);
-  };
-  const auto best = std::max_element(candidates.begin(), candidates.end(), worse);
-  return best == candidates.end() ? nullptr : &*best;
-}
-
-/// With one: the nearest to it. A print that is both elsewhere and of another size is another copy of the tag (a
-/// thumbnail, a reflection): better to coast for a moment than to jump to it.
-const Detection* nearest(const std::vector<Detection>& candidates, const Quad& predicted) {
-  const double predicted_side = side_px(predicted);
-  const auto distance = [&](const Detection& d) { return glm::distance(center(d.corners_px), center(predicted)); };
-  const auto best = std::min_element(candidates.begin(), candidates.end(),
-                                     [&](const Detection& a, const Detection& b) { return distance(a) < distance(b); });
-  if (best == candidates.end()) return nullptr;
-  const double ratio = side_px(best->corners_px) / predicted_side;
-  const bool elsewhere = distance(*best) > 1.5 * predicted_side;
-  const bool other_size = std::max(ratio, 1 / ratio) > 1.5;
-  return elsewhere && other_size ? nullptr : &*best;
-}
+constexpr double kDetectedErrorPx = 2;                  ///< of the detector's corners in a smaller picture
+constexpr double kLeastErrorPx = 1, kMostErrorPx = 16;  ///< of a prediction; more than that is for the detector to find
+constexpr double kFirstErrorPx = 6;                     ///< of the first prediction, which knows no motion
+constexpr double kMostSigmaPx = 2;                      ///< a fit whose corners are less certain is none
 
 void check_camera(const CameraModel& camera, const TagTarget& target, const TrackerOptions& options) {
   if (camera.width_px <= 0 || camera.height_px <= 0 || !(camera.fx_px > 0) || !(camera.fy_px > 0))
     throw Error("the camera model needs a positive image size and focal length");
-  if (!(target.size_m > 0) || !std::isfinite(target.size_m))
-    throw Error("the tag's size must be a positive length in metres, not " + std::to_string(target.size_m));
+  for (const BundledTag& tag : target.tags())
+    if (!(tag.size_m > 0) || !std::isfinite(tag.size_m))
+      throw Error("the tag's size must be a positive length in metres, not " + std::to_string(tag.size_m));
   if (!(options.coast_s >= 0)) throw Error("the coasting time must be 0 s or more, not " + std::to_string(options.coast_s));
 }
 
+/// A frame's poses, the likelier first, and what the tag looked like.
+struct Measurement {
+  std::vector<PoseCandidate> candidates;
+  std::optional<TagAppearance> appearance;
+};
+
+PoseCandidate candidate(const DirectFit& fit) {
+  return {fit.camera_from_tag, fit.covariance, fit.log_likelihood};
+}
+
 }  // namespace
+
+std::vector<BundledTag> TagTarget::tags() const {
+  std::vector<BundledTag> all{{*this, {}}};
+  all.insert(all.end(), bundle.begin(), bundle.end());
+  return all;
+}
 
 struct Tracker::Impl {
   CameraModel camera;
   TagTarget target;
   TrackerOptions options;
-  TagLayout layout;
-  Detector detector;
+  std::vector<BundledTag> tags;
+  TagSearch search;
+  DirectRefiner refiner;
+  CornerNoise corner_noise;
   PoseMemory memory;
+  Covariance2 blur_px2{0.5, 0, 0.5};  ///< as last seen
+  double error_px = kFirstErrorPx;    ///< how far predictions have been off
+
+  Impl(const CameraModel& camera_model, const TagTarget& tag_target, const TrackerOptions& tracker_options)
+      : camera(camera_model),
+        target(tag_target),
+        options(tracker_options),
+        tags(tag_target.tags()),
+        search(camera_model, tag_target, tracker_options),
+        refiner(camera_model, tag_target) {}
 
   /// Where the tag should be seen now; empty once the memory is too old.
   std::optional<RigidTransform> predict(double time_s) {
     // Frame times are rounded to microseconds or coarser: a frame exactly at the limit still counts.
-    if (time_s - memory.last_time_s() > options.coast_s + 1e-6) memory.forget();
+    if (time_s - memory.last_time_s() > options.coast_s + 1e-6) {
+      memory.forget();
+      error_px = kFirstErrorPx;
+    }
     return memory.predict(time_s);
   }
 
-  std::optional<Detection> find(const LumaView& luma, const std::optional<RigidTransform>& predicted) {
-    std::vector<Detection> candidates = detector.detect(luma);
-    std::erase_if(candidates, [&](const Detection& d) { return d.id != target.id; });
-    const auto predicted_px = predicted ? project_corners(camera, *predicted, target.size_m) : std::nullopt;
-    const Detection* chosen = predicted_px ? nearest(candidates, *predicted_px) : most_trusted(candidates);
-    return chosen ? std::optional(*chosen) : std::nullopt;
+  /// The pattern itself, from a pose that may be `off_px` away.
+  std::optional<Measurement> refined(const LumaView& luma, const RigidTransform& camera_from_tag, double off_px) {
+    auto fit = refiner.refine(luma, {camera_from_tag, blur_px2, off_px});
+    if (!fit || !is_convincing(*fit)) return std::nullopt;
+    if (!(corner_sigma_px(camera, fit->camera_from_tag, fit->covariance, target.size_m) < kMostSigmaPx)) return std::nullopt;
+    Measurement measurement;
+    const auto other = refiner.other_pose(luma, *fit);
+    measurement.candidates.push_back(candidate(*fit));
+    if (other) measurement.candidates.push_back(candidate(*other));
+    if (other && other->log_likelihood > fit->log_likelihood) std::swap(measurement.candidates[0], measurement.candidates[1]);
+    const DirectFit& best = other && other->log_likelihood > fit->log_likelihood ? *other : *fit;
+    measurement.appearance =
+        TagAppearance{best.white_linear, best.black_linear, best.blur_px2, best.noise_codes, best.inlier_share};
+    return measurement;
   }
 
-  std::optional<TagObservation> observe(const LumaView& luma, const Detection& detection, double time_s) {
-    const RefinedCorners refined = refine_corners(luma, camera, detection.corners_px, layout);
-    const auto poses = planar_poses(camera, refined.corners_px, target.size_m);
+  std::optional<Measurement> measured(const LumaView& luma, const Sighting& sighting) {
+    const BundledTag& tag = tags[sighting.tag];
+    const RigidTransform this_from_tag = inverse(tag.tag_from_this);
+    Quad corners_px = sighting.detection.corners_px;
+    if (options.refinement == Refinement::direct)
+      for (const PoseHypothesis& pose : planar_poses(camera, corners_px, tag.size_m))
+        if (auto fit = refined(luma, pose.camera_from_tag * this_from_tag, kDetectedErrorPx)) return fit;
+    if (options.refinement != Refinement::none)
+      corners_px = refine_corners(luma, camera, corners_px, tag_layout(tag.family, tag.id)).corners_px;
+    const auto poses = planar_poses(camera, corners_px, tag.size_m);
     if (poses.empty()) return std::nullopt;
-    const std::size_t chosen = memory.choose(poses, time_s);
+    Measurement measurement{corner_noise.candidates(camera, poses, tag.size_m), {}};
+    for (PoseCandidate& each : measurement.candidates) each.camera_from_tag = each.camera_from_tag * this_from_tag;
+    return measurement;
+  }
+
+  std::optional<Measurement> measure(const LumaView& luma, const std::optional<RigidTransform>& predicted) {
+    if (predicted && options.refinement == Refinement::direct) {
+      if (auto followed = refined(luma, *predicted, error_px)) return followed;
+      if (const auto sighting = search.near(luma, *predicted, kMostErrorPx))
+        if (auto measurement = measured(luma, *sighting)) return measurement;
+    }
+    const auto sighting = search.anywhere(luma, predicted);
+    return sighting ? measured(luma, *sighting) : std::nullopt;
+  }
+
+  TagObservation observed(const Measurement& measurement, const std::optional<RigidTransform>& predicted, double time_s) {
+    const PoseCandidate& chosen = measurement.candidates[memory.choose(measurement.candidates, time_s)];
     TagObservation observation;
     observation.state = TrackState::tracking;
-    observation.camera_from_tag = poses[chosen].camera_from_tag;
-    observation.corners_px = refined.corners_px;
-    observation.reprojection_rms_px = poses[chosen].reprojection_rms_px;
-    observation.hamming = detection.hamming;
-    if (poses.size() == 2) {
-      // Errors far below what corners can be measured to fit alike, whatever their ratio.
-      constexpr double kMeasurablePx = 1e-6;
-      const double other_rms_px = poses[1 - chosen].reprojection_rms_px;
-      observation.ambiguity = std::min(1.0, (observation.reprojection_rms_px + kMeasurablePx) / (other_rms_px + kMeasurablePx));
-    }
+    observation.camera_from_tag = chosen.camera_from_tag;
+    observation.covariance = chosen.covariance;
+    observation.corner_sigma_px = corner_sigma_px(camera, chosen.camera_from_tag, chosen.covariance, target.size_m);
+    observation.ambiguity = memory.doubt();
+    observation.candidates = measurement.candidates;
+    observation.appearance = measurement.appearance;
+    const auto corners_px = project_corners(camera, chosen.camera_from_tag, target.size_m);
+    if (corners_px) observation.corners_px = *corners_px;
+    if (measurement.appearance) blur_px2 = measurement.appearance->blur_px2;
+    const auto expected_px = predicted ? project_corners(camera, *predicted, target.size_m) : std::nullopt;
+    if (corners_px && expected_px) learn_error(*corners_px, *expected_px);
     return observation;
+  }
+
+  /// Twice the worst of what predictions were lately off.
+  void learn_error(const Quad& seen_px, const Quad& expected_px) {
+    double off_px = 0;
+    for (int i = 0; i < 4; ++i) off_px = std::max(off_px, glm::distance(seen_px[i], expected_px[i]));
+    error_px = std::clamp(std::max(2 * off_px, 0.8 * error_px), kLeastErrorPx, kMostErrorPx);
   }
 };
 
 Tracker::Tracker(const CameraModel& camera, const TagTarget& target, const TrackerOptions& options) {
   check_camera(camera, target, options);
-  impl_ = std::make_unique<Impl>(
-      Impl{camera, target, options, tag_layout(target.family, target.id), Detector(target.family, options), PoseMemory()});
+  impl_ = std::make_unique<Impl>(camera, target, options);
 }
 
 Tracker::~Tracker() = default;
@@ -136,8 +161,7 @@ TagObservation Tracker::track(const LumaView& luma, double time_s) {
                 "; use the calibration of this footage, or scale it");
 
   const auto predicted = impl_->predict(time_s);
-  if (const auto detection = impl_->find(luma, predicted))
-    if (const auto observation = impl_->observe(luma, *detection, time_s)) return *observation;
+  if (const auto measurement = impl_->measure(luma, predicted)) return impl_->observed(*measurement, predicted, time_s);
 
   TagObservation unseen;
   if (!predicted) return unseen;

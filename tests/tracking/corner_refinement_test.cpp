@@ -152,7 +152,7 @@ class RefinesFamily : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(RefinesFamily, FromDetectionToAHundredthOfAPixel) {
   SyntheticScene scene = one_tag(plain_camera(), 0.35, {35, -15, 25});
-  scene.tags[0].target = {GetParam(), 3, 0.08};
+  scene.tags[0].target = {{GetParam(), 3, 0.08}, {}};
   const SyntheticFrame frame = render(scene);
   TrackerOptions options;
   options.max_hamming = 0;  // quick to set up, and the print is clean

@@ -7,6 +7,8 @@
 
 #include "tests/tracking/pose_error.hpp"
 #include "tests/tracking/synthetic_tag.hpp"
+#include "tracking/corner_noise.hpp"
+#include "tracking/planar_pose.hpp"
 
 namespace catchlight::tracking {
 namespace {
@@ -22,7 +24,7 @@ std::vector<PoseHypothesis> seen(const RigidTransform& truth, double noise_px, s
   return planar_poses(plain_camera(), corners_px, tag.target.size_m);
 }
 
-bool is_wrong(std::span<const PoseHypothesis> poses, std::size_t chosen, const RigidTransform& truth) {
+bool is_wrong(std::span<const PoseCandidate> poses, std::size_t chosen, const RigidTransform& truth) {
   return turn_between_deg(poses[chosen].camera_from_tag, truth) > turn_between_deg(poses[1 - chosen].camera_from_tag, truth);
 }
 
@@ -56,10 +58,11 @@ WrongShares wrong_shares(double noise_px) {
   for (int path_number = 0; path_number < 100; ++path_number) {
     const WanderingPath path(random);
     PoseMemory memory;
+    CornerNoise corner_noise;
     for (int frame = 0; frame < 60; ++frame) {
       const double time_s = frame * kFrame_s;
       const RigidTransform truth = path.at(time_s);
-      const auto poses = seen(truth, noise_px, random);
+      const auto poses = corner_noise.candidates(plain_camera(), seen(truth, noise_px, random), SyntheticTag().target.size_m);
       if (poses.empty()) continue;
       const std::size_t chosen = memory.choose(poses, time_s);
       if (poses.size() < 2 || turn_between_deg(poses[0].camera_from_tag, poses[1].camera_from_tag) < 10) continue;
@@ -90,9 +93,14 @@ RigidTransform tilted(double tilt_deg) {
   return tag_pose(plain_camera(), {319.5, 239.5}, 0.8, {0, tilt_deg, 0});
 }
 
-/// Hypotheses with errors made to order, the true one first.
-std::vector<PoseHypothesis> made(double tilt_deg, double true_rms_px, double false_rms_px) {
-  return {{tilted(tilt_deg), true_rms_px}, {tilted(-tilt_deg), false_rms_px}};
+/// A pose whose corners leave `rms_px` where the noise is 0.05 px per axis.
+PoseCandidate fitting(double tilt_deg, double rms_px) {
+  return {tilted(tilt_deg), {}, -2 * rms_px * rms_px / (0.05 * 0.05)};
+}
+
+/// Candidates with errors made to order, the true one first.
+std::vector<PoseCandidate> made(double tilt_deg, double true_rms_px, double false_rms_px) {
+  return {fitting(tilt_deg, true_rms_px), fitting(-tilt_deg, false_rms_px)};
 }
 
 TEST(PoseMemory, FirstFrameTakesTheBetterFit) {
@@ -119,7 +127,7 @@ TEST(PoseMemory, HypothesesAreFollowedWhicheverComesFirst) {
   // planar_poses() sorts by error, so the true one changes its place: the choice has to follow the pose, not the index.
   PoseMemory memory;
   memory.choose(made(20, 0.05, 0.3), 0);
-  const std::vector<PoseHypothesis> swapped{{tilted(-20), 0.08}, {tilted(20), 0.09}};
+  const std::vector<PoseCandidate> swapped{fitting(-20, 0.08), fitting(20, 0.09)};
   EXPECT_EQ(memory.choose(swapped, kFrame_s), 1u);
 }
 
@@ -140,7 +148,7 @@ TEST(PoseMemory, PredictsSteadyMotion) {
   PoseMemory memory;
   EXPECT_FALSE(memory.predict(0));
   for (int frame = 0; frame < 20; ++frame) {
-    std::vector<PoseHypothesis> one{{tilted(frame), 0.05}};
+    std::vector<PoseCandidate> one{fitting(frame, 0.05)};
     one[0].camera_from_tag.translation_m.x = 0.01 * frame;
     memory.choose(one, frame * kFrame_s);
   }

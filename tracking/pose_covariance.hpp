@@ -1,0 +1,19 @@
+// What a pose is worth in the picture, and what corners are worth as a pose.
+#pragma once
+
+#include <array>
+
+#include "catchlight.hpp"
+#include "tracking/tracker.hpp"
+
+namespace catchlight::tracking {
+
+/// Root mean square standard deviation, per axis, of the corners of a tag in the picture.
+double corner_sigma_px(const CameraModel& camera, const RigidTransform& camera_from_tag, const PoseCovariance& covariance,
+                       double size_m);
+
+/// Of a pose fitted to four corners of independent errors of `sigma_px` per axis.
+PoseCovariance covariance_from_corners(const CameraModel& camera, const RigidTransform& camera_from_tag, double size_m,
+                                       double sigma_px);
+
+}  // namespace catchlight::tracking

@@ -1,0 +1,38 @@
+// The camera's response as a table: codes of linear light with their slope, and light of codes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "tracking/tracker.hpp"
+
+namespace catchlight::tracking {
+
+/// Codes here are normalised: 0 is the stream's black, 1 its white; 8-bit codes beyond them stay beyond.
+class ResponseTable {
+ public:
+  explicit ResponseTable(const LumaView& luma);
+
+  struct Code {
+    double value, slope;  ///< slope: per unit of light; 0 where the code is clipped
+  };
+
+  Code code(double linear) const;
+  double linear(std::uint8_t code) const { return linear_[code]; }
+  double linear_of(double normalised_code) const { return linear_from_code(transfer_, normalised_code); }
+  double normalised(std::uint8_t code) const { return (code - black_code_) / span_; }
+  double codes_per_unit() const { return span_; }
+
+  /// Whether it was made for frames like this one.
+  bool fits(const LumaView& luma) const;
+
+ private:
+  double black_code_, span_;
+  TransferFunction transfer_;
+  std::array<double, 256> linear_;
+  double first_linear_, steps_per_linear_;
+  std::vector<float> codes_;
+};
+
+}  // namespace catchlight::tracking

@@ -1,0 +1,13 @@
+// Rotations as vectors: direction is the axis, length the angle (Rodrigues).
+#pragma once
+
+#include <glm/glm.hpp>
+
+namespace catchlight::tracking {
+
+/// Of length pi at most.
+glm::dvec3 rotation_vector(const glm::dmat3& rotation);
+
+glm::dmat3 rotation_matrix(const glm::dvec3& rotation_vector_rad);
+
+}  // namespace catchlight::tracking

@@ -1,0 +1,112 @@
+#include "tracking/tag_pixels.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tracking/lens.hpp"
+
+namespace catchlight::tracking {
+namespace {
+
+constexpr double kEdgeReachSigmas = 3;   ///< farther from an edge, a pixel says nothing about its place
+constexpr double kPlateauShare = 0.125;  ///< of the plateaus' pixels, for the levels of white and black
+/// Distance to the end of what is known of the print, where the paper may have been cut.
+constexpr double kClearanceCells = 0.3, kClearanceSigmas = 2.5;
+
+constexpr double kGolden = 0.6180339887498949;  ///< shifts each row's start, so that no two look at the same columns
+constexpr double kCandidates = 4;               ///< pixels looked at for each one wanted; many are on plateaus
+
+double fraction(double x) {
+  return x - std::floor(x);
+}
+
+/// Evenly spread over the plane without a grid's preference for directions (Roberts' R2 sequence); the same for every frame.
+double even_hash(int x, int y) {
+  return fraction(0.7548776662466927 * x + 0.5698402909980532 * y);
+}
+
+/// Half-open rectangle of pixels around the print as seen.
+PixelRect print_region(const CameraModel& camera, const TagPattern& pattern, const TagView& view) {
+  constexpr int kPointsPerSide = 4;  // a lens bends the outline
+  glm::dvec2 low(1e9), high(-1e9);
+  const double first = -pattern.margin(), last = pattern.cells_across() + pattern.margin();
+  for (int i = 0; i <= kPointsPerSide; ++i) {
+    const double at = first + (last - first) * i / kPointsPerSide;
+    for (const glm::dvec2& cell : {glm::dvec2(at, first), {at, last}, {first, at}, {last, at}}) {
+      const auto ideal_px = view.ideal_px(cell);
+      if (!ideal_px) return {};
+      const glm::dvec2 seen = distort_px(camera, *ideal_px);
+      if (!std::isfinite(seen.x + seen.y)) return {};
+      low = glm::min(low, seen);
+      high = glm::max(high, seen);
+    }
+  }
+  const glm::dvec2 image(camera.width_px, camera.height_px);
+  const glm::ivec2 from(glm::clamp(glm::floor(low) - 1.0, glm::dvec2(0), image));
+  const glm::ivec2 to(glm::clamp(glm::ceil(high) + 2.0, glm::dvec2(0), image));
+  return {from.x, from.y, to.x - from.x, to.y - from.y};
+}
+
+double block_code(const LumaView& luma, const ResponseTable& response, int x, int y, int block) {
+  const std::uint8_t* data = luma.data + static_cast<std::ptrdiff_t>(y) * luma.stride + x;
+  if (block == 1) return response.normalised(*data);
+  double sum = 0;
+  for (int j = 0; j < block; ++j)
+    for (int i = 0; i < block; ++i) sum += response.linear(data[static_cast<std::ptrdiff_t>(j) * luma.stride + i]);
+  return response.code(sum / (block * block)).value;
+}
+
+/// Whether a pixel's light is all of known cells, and worth looking at.
+bool is_wanted(const TagPattern& pattern, const PlanePoint& point, const PixelChoice& choice, double plateau_hash) {
+  const Covariance2 blur = in_cells(choice.blur_px2, point.cell_per_px), slack = in_cells({1, 0, 1}, point.cell_per_px);
+  const glm::dvec2 sigma(std::sqrt(blur.xx), std::sqrt(blur.yy));
+  const glm::dvec2 slack_cells = choice.slack_px * glm::dvec2(std::sqrt(slack.xx), std::sqrt(slack.yy));
+  const double end = pattern.cells_across() / 2.0 + pattern.margin();
+  const glm::dvec2 to_end = end - glm::abs(point.cell - pattern.cells_across() / 2.0);
+  if (glm::any(glm::lessThan(to_end, glm::max(kClearanceSigmas * sigma, glm::dvec2(kClearanceCells)) + slack_cells)))
+    return false;
+  const glm::dvec2 reach = kEdgeReachSigmas * sigma + slack_cells;
+  switch (pattern.around(point.cell, reach)) {
+    case TagPattern::Neighbourhood::unknown:
+      return false;
+    case TagPattern::Neighbourhood::plateau:
+      return plateau_hash < kPlateauShare;
+    case TagPattern::Neighbourhood::edge:
+      return true;
+  }
+  return false;
+}
+
+void thin_out(std::vector<TagPixel>& pixels, std::size_t most) {
+  if (pixels.size() <= most) return;
+  const double step = static_cast<double>(pixels.size()) / static_cast<double>(most);
+  for (std::size_t i = 0; i < most; ++i) pixels[i] = pixels[static_cast<std::size_t>(static_cast<double>(i) * step)];
+  pixels.resize(most);
+}
+
+}  // namespace
+
+std::vector<TagPixel> choose_pixels(const LumaView& luma, const CameraModel& camera, IdealPixels& ideal_pixels,
+                                    const ResponseTable& response, const TagPattern& pattern, const TagView& view,
+                                    const PixelChoice& choice) {
+  const int block = choice.block_px;
+  const PixelRect region = print_region(camera, pattern, view);
+  const double blocks = static_cast<double>(region.width) * region.height / (block * block);
+  const double stride = std::max(1.0, blocks / (kCandidates * static_cast<double>(choice.most)));
+  std::vector<TagPixel> pixels;
+  pixels.reserve(choice.most);
+  const int columns = region.width / block, rows = region.height / block;
+  for (int row = 0; row < rows; ++row)
+    for (double at = stride * fraction(kGolden * row); at < columns; at += stride) {
+      const int column = static_cast<int>(at), x = region.x + column * block, y = region.y + row * block;
+      const double to_center = (block - 1) / 2.0;
+      const auto place = block == 1 ? ideal_pixels.at(x, y) : ideal_pixel(camera, {x + to_center, y + to_center});
+      const auto point = place ? view.at(place->ideal_px) : std::nullopt;
+      if (!point || !is_wanted(pattern, *point, choice, even_hash(column, row))) continue;
+      pixels.push_back({*place, block_code(luma, response, x, y, block)});
+    }
+  thin_out(pixels, choice.most);
+  return pixels;
+}
+
+}  // namespace catchlight::tracking
