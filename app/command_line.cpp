@@ -73,7 +73,8 @@ void add_recording_options(CLI::App& command, std::string& location, RecordingOv
   command.add_option("--camera", overrides.camera_file, "Camera file, instead of the recording's camera.yaml")->type_name("FILE");
   command.add_option("--fov", overrides.fov_deg, "Horizontal field of view of a camera that is not calibrated")
       ->type_name("DEGREES");
-  command.add_flag("--strict", overrides.strict, "Refuse a probe with NaN, infinite or negative texels instead of taking them for 0");
+  command.add_flag("--strict", overrides.strict,
+                   "Refuse a probe with NaN, infinite or negative texels instead of taking them for 0");
   for (const Parameter& parameter : parameters()) {
     const auto note = [&overrides, key = parameter.key](const std::string& text) {
       overrides.parameters.emplace_back(key, text);

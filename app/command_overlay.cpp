@@ -13,11 +13,19 @@ struct Options {
   std::string recording, output, track_in, track_out, report, frames;
   RecordingOverrides overrides;
   SinkOptions sink;
+  bool causal = false;
 };
 
-std::unique_ptr<FrameTrack> open_track(const Options& options, const CameraModel& camera, const SceneSettings& scene) {
-  if (options.track_in.empty()) return make_tag_track(camera, scene);
-  return make_recorded_track(read_track_file(options.track_in), camera, scene);
+/// Recorded footage is tracked as a whole before its first frame is drawn.
+std::unique_ptr<FrameTrack> open_track(const Options& options, const Recording& recording, const CameraModel& camera,
+                                       bool is_live, const FrameRange& range, Context& context, Report& report) {
+  if (!options.track_in.empty()) return make_recorded_track(read_track_file(options.track_in), camera, recording.scene);
+  if (options.causal || is_live) return make_tag_track(camera, recording.scene);
+  Report tracking;
+  const OverlayResult solved =
+      solve_track(*MediaSource::open(recording.footage), camera, recording.scene, range, context.log, tracking);
+  report.stages = tracking.stages;
+  return make_recorded_track(solved.rows, camera, recording.scene);
 }
 
 void overlay(const Options& options, Context& context) {
@@ -27,10 +35,11 @@ void overlay(const Options& options, Context& context) {
   const Recording recording = open_recording(options.recording, options.overrides);
   const std::unique_ptr<MediaSource> source = MediaSource::open(recording.footage);
   const CameraModel camera = camera_for_footage(recording, source->info().width_px, source->info().height_px);
-  const std::unique_ptr<FrameTrack> track = open_track(options, camera, recording.scene);
   const std::unique_ptr<FrameOutput> output = open_output(options.output, recording.footage, *source, options.sink);
 
   Report report;
+  const std::unique_ptr<FrameTrack> track =
+      open_track(options, recording, camera, source->info().is_live, range, context, report);
   Stage stage = build_stage(recording.scene, context.log, report);
   const OverlayResult result = run_overlay(*source, *track, stage, recording.scene, camera, *output, range, context.log, report);
 
@@ -58,6 +67,7 @@ void set_up_overlay(CLI::App& command, Context& context) {
                      "only frames A:B, numbered from 0 (image sequences: by their own numbers), B left out");
   command.add_option("--track", options->track_in, "poses from this track file instead of from the pictures");
   command.add_option("--track-out", options->track_out, "write the track, CSV");
+  command.add_flag("--causal", options->causal, "track as live footage is: each frame knows only those before it");
   command.add_option("--report", options->report, "write what was done and how long it took, JSON");
   command.add_option("--codec", options->sink.codec, "h264 or ffv1, instead of what the extension says")
       ->check(CLI::IsMember({"h264", "ffv1"}));

@@ -12,7 +12,7 @@ namespace {
 struct Options {
   std::string recording, output, report, frames;
   RecordingOverrides overrides;
-  bool overwrite = false;
+  bool overwrite = false, causal = false;
 };
 
 void track(const Options& options, Context& context) {
@@ -22,10 +22,11 @@ void track(const Options& options, Context& context) {
   const Recording recording = open_recording(options.recording, options.overrides);
   const std::unique_ptr<MediaSource> source = MediaSource::open(recording.footage);
   const CameraModel camera = camera_for_footage(recording, source->info().width_px, source->info().height_px);
-  const std::unique_ptr<FrameTrack> frame_track = make_tag_track(camera, recording.scene);
 
   Report report;
-  const OverlayResult result = run_track(*source, *frame_track, range, context.log, report);
+  const OverlayResult result = options.causal || source->info().is_live
+                                   ? run_track(*source, *make_tag_track(camera, recording.scene), range, context.log, report)
+                                   : solve_track(*source, camera, recording.scene, range, context.log, report);
   write_track_file(options.output, result.rows, options.overwrite);
   report.warnings = context.log.warnings();
   if (!options.report.empty()) write_report(options.report, report, options.overwrite);
@@ -45,6 +46,7 @@ void set_up_track(CLI::App& command, Context& context) {
   command.add_flag("-y,--overwrite", options->overwrite, "replace existing outputs");
   command.add_option("--frames", options->frames,
                      "only frames A:B, numbered from 0 (image sequences: by their own numbers), B left out");
+  command.add_flag("--causal", options->causal, "track as live footage is: each frame knows only those before it");
   command.add_option("--report", options->report, "write what was done and how long it took, JSON");
   command.callback([options, &context] { track(*options, context); });
 }

@@ -5,6 +5,9 @@
 #include "app/exposure.hpp"
 #include "app/linear_patch.hpp"
 #include "tracking/photometry.hpp"
+#include "tracking/pose_covariance.hpp"
+#include "tracking/recorded_path.hpp"
+#include "tracking/tag_search.hpp"
 #include "tracking/tracker.hpp"
 
 namespace catchlight::app {
@@ -17,14 +20,16 @@ class ExposureTrack {
   ExposureTrack(const CameraModel& camera, const SceneSettings& scene)
       : camera_(camera), target_(scene.tag.target()), matcher_(scene.tag.white_albedo, scene.tag.black_albedo) {}
 
-  /// `row` has its pose and state. A pose that was only predicted may not lie on the cells: the exposure is held.
-  void add_exposure(const Frame& frame, TrackRow& row) {
+  /// `row` has its pose and state. A pose that was only predicted may not lie on the cells: the exposure is held. Returns whether
+  /// it was measured.
+  bool add_exposure(const Frame& frame, TrackRow& row) {
     std::optional<tracking::TagPhotometry> photometry;
     if (row.state == tracking::TrackState::tracking) photometry = measure(frame, row.camera_from_tag);
     const TagExposure exposure = matcher_.update(photometry);
     row.has_exposure = true;
     row.exposure = exposure.white;
     row.black = exposure.black;
+    return photometry.has_value();
   }
 
  private:
@@ -40,26 +45,67 @@ class ExposureTrack {
   ExposureMatcher matcher_;
 };
 
+/// Whether any of the target can be in the picture.
+bool is_in_picture(const CameraModel& camera, const tracking::TagTarget& target, const RigidTransform& camera_from_tag) {
+  for (const tracking::BundledTag& tag : target.tags()) {
+    const auto quad = tracking::project_corners(camera, camera_from_tag * tag.tag_from_this, tag.size_m);
+    if (!quad) continue;
+    glm::dvec2 low = (*quad)[0], high = low;
+    for (const glm::dvec2& corner : *quad) {
+      low = glm::min(low, corner);
+      high = glm::max(high, corner);
+    }
+    if (high.x >= -0.5 && high.y >= -0.5 && low.x <= camera.width_px - 0.5 && low.y <= camera.height_px - 0.5) return true;
+  }
+  return false;
+}
+
+/// A row's pose; a tag that went on out of the picture is lost.
+void set_pose(TrackRow& row, tracking::TrackState state, const RigidTransform& camera_from_tag, const CameraModel& camera,
+              const tracking::TagTarget& target) {
+  const bool is_lost = state == tracking::TrackState::lost || !is_in_picture(camera, target, camera_from_tag);
+  row.found = !is_lost;
+  row.state = is_lost ? tracking::TrackState::lost : state;
+  row.camera_from_tag = camera_from_tag;
+}
+
+void set_appearance(TrackRow& row, const std::optional<tracking::TagAppearance>& appearance) {
+  if (!appearance) return;
+  row.blur_px2 = appearance->blur_px2;
+  row.noise_codes = appearance->noise_codes;
+}
+
+TrackRow row_of(const Frame& frame) {
+  TrackRow row;
+  row.frame = frame.number();
+  row.time_s = frame.time_s();
+  return row;
+}
+
 class TagTrack : public FrameTrack {
  public:
   TagTrack(const CameraModel& camera, const SceneSettings& scene)
-      : tracker_(camera, scene.tag.target(), scene.tag.tracker_options()), exposure_(camera, scene) {}
+      : camera_(camera),
+        target_(scene.tag.target()),
+        tracker_(camera, target_, scene.tag.tracker_options()),
+        exposure_(camera, scene) {}
 
   TrackRow row(const Frame& frame) override {
     const tracking::TagObservation seen = tracker_.track(frame.luma(), frame.time_s());
-    TrackRow row;
-    row.frame = frame.number();
-    row.time_s = frame.time_s();
-    row.found = seen.state != tracking::TrackState::lost;
-    row.camera_from_tag = seen.camera_from_tag;
-    row.state = seen.state;
-    row.corner_rms_px = seen.corner_sigma_px;
+    TrackRow row = row_of(frame);
+    set_pose(row, seen.state, seen.camera_from_tag, camera_, target_);
+    row.corner_sigma_px = seen.corner_sigma_px;
     row.ambiguity = seen.ambiguity;
+    set_appearance(row, seen.appearance);
     exposure_.add_exposure(frame, row);
     return row;
   }
 
+  bool is_tracking() const override { return true; }
+
  private:
+  CameraModel camera_;
+  tracking::TagTarget target_;
   tracking::Tracker tracker_;
   ExposureTrack exposure_;
 };
@@ -79,12 +125,70 @@ class RecordedTrack : public FrameTrack {
     return row;
   }
 
+  bool is_tracking() const override { return false; }
+
  private:
   std::map<std::int64_t, TrackRow> rows_;
   ExposureTrack exposure_;
 };
 
+/// Unmeasured rows take the exposure of the nearest measured one; of two, the earlier.
+void fill_exposures(std::vector<TrackRow>& rows, const std::vector<bool>& measured) {
+  std::vector<std::size_t> known;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (measured[i]) known.push_back(i);
+  if (known.empty()) return;
+  for (std::size_t i = 0, next = 0; i < rows.size(); ++i) {
+    while (next + 1 < known.size() && known[next] < i) ++next;
+    std::size_t nearest = known[next];
+    if (next > 0 && i - known[next - 1] <= (nearest > i ? nearest - i : i - nearest)) nearest = known[next - 1];
+    if (measured[i]) nearest = i;
+    rows[i].exposure = rows[nearest].exposure;
+    rows[i].black = rows[nearest].black;
+  }
+}
+
 }  // namespace
+
+struct PathTrack::Impl {
+  CameraModel camera;
+  tracking::TagTarget target;
+  tracking::RecordedPath path;
+  ExposureTrack exposure;
+  std::vector<TrackRow> rows;
+  std::vector<bool> measured;
+};
+
+PathTrack::PathTrack(const CameraModel& camera, const SceneSettings& scene) {
+  const tracking::TagTarget target = scene.tag.target();
+  impl_ = std::make_unique<Impl>(Impl{
+      camera, target, tracking::RecordedPath(camera, target, scene.tag.tracker_options()), ExposureTrack(camera, scene), {}, {}});
+}
+
+PathTrack::~PathTrack() = default;
+
+void PathTrack::add(const Frame& frame) {
+  const tracking::TagObservation& seen = impl_->path.add(frame.luma(), frame.time_s());
+  TrackRow row = row_of(frame);
+  set_pose(row, seen.state, seen.camera_from_tag, impl_->camera, impl_->target);
+  impl_->measured.push_back(impl_->exposure.add_exposure(frame, row));
+  impl_->rows.push_back(row);
+}
+
+std::vector<TrackRow> PathTrack::solve() const {
+  std::vector<TrackRow> rows = impl_->rows;
+  const std::vector<tracking::SolvedPose> poses = impl_->path.solve();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    set_pose(rows[i], poses[i].state, poses[i].camera_from_tag, impl_->camera, impl_->target);
+    rows[i].ambiguity = poses[i].ambiguity;
+    if (rows[i].found)
+      rows[i].corner_sigma_px =
+          tracking::corner_sigma_px(impl_->camera, poses[i].camera_from_tag, poses[i].covariance, impl_->target.size_m);
+    set_appearance(rows[i], impl_->path.appearances()[i]);
+  }
+  fill_exposures(rows, impl_->measured);
+  return rows;
+}
 
 std::unique_ptr<FrameTrack> make_tag_track(const CameraModel& camera, const SceneSettings& scene) {
   return std::make_unique<TagTrack>(camera, scene);

@@ -16,10 +16,30 @@ class FrameTrack {
 
   /// Frames come in order, none left out.
   virtual TrackRow row(const Frame& frame) = 0;
+
+  /// Whether row() tracks, or only looks up what is known.
+  virtual bool is_tracking() const = 0;
 };
 
-/// Detects the tag and measures its photometry.
+/// Tracks the tag causally, for live footage: each row knows the frames before it. Measures the tag's photometry.
 std::unique_ptr<FrameTrack> make_tag_track(const CameraModel& camera, const SceneSettings& scene);
+
+/// Tracks recorded footage, where each row may know what comes after it.
+class PathTrack {
+ public:
+  PathTrack(const CameraModel& camera, const SceneSettings& scene);
+  ~PathTrack();
+
+  /// Frames come in order, none left out.
+  void add(const Frame& frame);
+
+  /// One row a frame. Where the tag could not be measured, the exposure is that of the nearest frame where it could.
+  std::vector<TrackRow> solve() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
 
 /// Frames that `rows` does not have count as lost. Rows without exposure (bare poses) are measured in the pictures.
 std::unique_ptr<FrameTrack> make_recorded_track(std::vector<TrackRow> rows, const CameraModel& camera,

@@ -62,6 +62,11 @@ void warn_of_lost_frames(const Report& report, Log& log) {
     log.warn("no tag in " + std::to_string(report.lost_frames) + of_frames + ", which pass through untouched");
 }
 
+double frames_per_second(std::int64_t frames, std::chrono::steady_clock::time_point since) {
+  const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
+  return elapsed_s > 0 ? static_cast<double>(frames) / elapsed_s : 0;
+}
+
 /// Decodes and tracks from the first frame to the range's end, and hands on what is in the range.
 template <class PerFrame>
 OverlayResult run(MediaSource& source, FrameTrack& track, const FrameRange& range, const char* task, Log& log, Report& report,
@@ -73,7 +78,8 @@ OverlayResult run(MediaSource& source, FrameTrack& track, const FrameRange& rang
   try {
     while (const std::optional<Frame> frame = report.stages.measure("decode", [&] { return source.read(); })) {
       if (frame->number() >= range.end) break;
-      const TrackRow row = report.stages.measure("track", [&] { return track.row(*frame); });
+      const TrackRow row =
+          track.is_tracking() ? report.stages.measure("track", [&] { return track.row(*frame); }) : track.row(*frame);
       if (range.contains(frame->number())) {
         per_frame(*frame, row);
         count(row, report);
@@ -84,8 +90,7 @@ OverlayResult run(MediaSource& source, FrameTrack& track, const FrameRange& rang
   } catch (const DamagedMedia& damaged) {
     result.damage = damaged.what();
   }
-  const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  report.fps = elapsed_s > 0 ? static_cast<double>(report.frames) / elapsed_s : 0;
+  report.fps = frames_per_second(report.frames, start);
   return result;
 }
 
@@ -137,12 +142,37 @@ OverlayResult run_overlay(MediaSource& source, FrameTrack& track, Stage& stage, 
     throw Error("no frame of the footage lies in --frames; it has " + std::to_string(source.info().frame_count.value_or(0)) +
                 " from " + std::to_string(source.info().first_number));
   output.finish();
-  warn_of_lost_frames(report, log);
+  if (track.is_tracking()) warn_of_lost_frames(report, log);
   return result;
 }
 
 OverlayResult run_track(MediaSource& source, FrameTrack& track, const FrameRange& range, Log& log, Report& report) {
   const OverlayResult result = run(source, track, range, "track", log, report, [](const Frame&, const TrackRow&) {});
+  warn_of_lost_frames(report, log);
+  return result;
+}
+
+OverlayResult solve_track(MediaSource& source, const CameraModel& camera, const SceneSettings& scene, const FrameRange& range,
+                          Log& log, Report& report) {
+  OverlayResult result;
+  PathTrack path(camera, scene);
+  Progress progress(log, "track", frames_to_read(source.info(), range));
+  const auto lookahead = static_cast<std::int64_t>(std::max(source.info().frame_rate, 1.0));
+  const auto start = std::chrono::steady_clock::now();
+  std::int64_t read = 0;
+  try {
+    while (const std::optional<Frame> frame = report.stages.measure("decode", [&] { return source.read(); })) {
+      if (range.end != FrameRange{}.end && frame->number() >= range.end + lookahead) break;
+      report.stages.measure("track", [&] { path.add(*frame); });
+      progress.update(++read);
+    }
+  } catch (const DamagedMedia& damaged) {
+    result.damage = damaged.what();
+  }
+  for (const TrackRow& row : report.stages.measure("solve path", [&] { return path.solve(); }))
+    if (range.contains(row.frame)) result.rows.push_back(row);
+  for (const TrackRow& row : result.rows) count(row, report);
+  report.fps = frames_per_second(report.frames, start);
   warn_of_lost_frames(report, log);
   return result;
 }

@@ -48,7 +48,12 @@ struct OverlayResult {
 OverlayResult run_overlay(MediaSource& source, FrameTrack& track, Stage& stage, const SceneSettings& scene,
                           const CameraModel& camera, FrameOutput& output, const FrameRange& range, Log& log, Report& report);
 
-/// Tracks without drawing anything.
+/// Tracks live footage without drawing anything.
 OverlayResult run_track(MediaSource& source, FrameTrack& track, const FrameRange& range, Log& log, Report& report);
+
+/// Tracks recorded footage as a whole, without drawing anything: from its first frame to a second after the range's end, so that
+/// poses hardly depend on the range. Rows are of the frames in range.
+OverlayResult solve_track(MediaSource& source, const CameraModel& camera, const SceneSettings& scene, const FrameRange& range,
+                          Log& log, Report& report);
 
 }  // namespace catchlight::app

@@ -166,8 +166,10 @@ class Reader {
     row.has_exposure = cell("exposure_r") != nullptr;
     row.exposure = rgb_or("exposure", row.exposure);
     row.black = rgb_or("black", row.black);
-    row.corner_rms_px = number_or("corner_rms_px", 0);
+    row.corner_sigma_px = number_or("corner_sigma_px", 0);
     row.ambiguity = number_or("ambiguity", 0);
+    row.blur_px2 = {number_or("blur_xx_px2", 0), number_or("blur_xy_px2", 0), number_or("blur_yy_px2", 0)};
+    row.noise_codes = number_or("noise_codes", 0);
     return row;
   }
 
@@ -181,7 +183,9 @@ class Reader {
 std::string header_text() {
   std::string text = "frame,time_s,found";
   for (const char* column : kPoseColumns) text += std::string(",") + column;
-  return text + ",state,exposure_r,exposure_g,exposure_b,black_r,black_g,black_b,corner_rms_px,ambiguity\n";
+  return text +
+         ",state,exposure_r,exposure_g,exposure_b,black_r,black_g,black_b,corner_sigma_px,ambiguity,"
+         "blur_xx_px2,blur_xy_px2,blur_yy_px2,noise_codes\n";
 }
 
 std::string row_text(const TrackRow& row) {
@@ -190,7 +194,10 @@ std::string row_text(const TrackRow& row) {
   text += std::string(",") + name_of(row.state);
   for (const glm::dvec3& rgb : {row.exposure, row.black})
     for (int i = 0; i < 3; ++i) text += ',' + number_text(rgb[i]);
-  return text + ',' + number_text(row.corner_rms_px) + ',' + number_text(row.ambiguity) + '\n';
+  const tracking::Covariance2& blur = row.blur_px2;
+  for (const double number : {row.corner_sigma_px, row.ambiguity, blur.xx, blur.xy, blur.yy, row.noise_codes})
+    text += ',' + number_text(number);
+  return text + '\n';
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ constexpr double kNearPx = 0.1, kSettledPx = 0.01;  ///< Gauss-Newton's next ste
 /// What a frame's own fit may say against the usual: blur changes by a few px², light across a tag by a third.
 constexpr double kBlurPrior_px2 = 2, kLightPrior = 0.3;
 /// Beyond this many standard deviations of its corners, the other planar pose needs no look at the pixels to be ruled out.
-constexpr double kRuledOutSigmas = 12;
+constexpr double kRuledOutSigmas = 20;
 /// Residuals of neighbouring pixels go together (compression, the print's own faults): a pixel counts as this much of one.
 constexpr double kIndependence = 0.5;
 

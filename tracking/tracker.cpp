@@ -92,13 +92,26 @@ struct Tracker::Impl {
     return measurement;
   }
 
+  /// From corners that only the detector has seen, either planar pose may be the right one: the one that explains more is kept.
+  std::optional<Measurement> refined_from_both(const LumaView& luma, const std::vector<PoseHypothesis>& poses,
+                                               const RigidTransform& this_from_tag) {
+    std::optional<Measurement> best;
+    double least_noise = 0;
+    for (const PoseHypothesis& pose : poses) {
+      auto fit = refined(luma, pose.camera_from_tag * this_from_tag, kDetectedErrorPx);
+      if (!fit || (best && fit->appearance->noise_codes >= least_noise)) continue;
+      least_noise = fit->appearance->noise_codes;
+      best = std::move(fit);
+    }
+    return best;
+  }
+
   std::optional<Measurement> measured(const LumaView& luma, const Sighting& sighting) {
     const BundledTag& tag = tags[sighting.tag];
     const RigidTransform this_from_tag = inverse(tag.tag_from_this);
     Quad corners_px = sighting.detection.corners_px;
     if (options.refinement == Refinement::direct)
-      for (const PoseHypothesis& pose : planar_poses(camera, corners_px, tag.size_m))
-        if (auto fit = refined(luma, pose.camera_from_tag * this_from_tag, kDetectedErrorPx)) return fit;
+      if (auto fit = refined_from_both(luma, planar_poses(camera, corners_px, tag.size_m), this_from_tag)) return fit;
     if (options.refinement != Refinement::none)
       corners_px = refine_corners(luma, camera, corners_px, tag_layout(tag.family, tag.id)).corners_px;
     const auto poses = planar_poses(camera, corners_px, tag.size_m);

@@ -114,9 +114,10 @@ ReplayResult replay_recording(const std::string& location, const RecordingOverri
   scene.lens.noise = Switch::off;
   const std::unique_ptr<MediaSource> source = MediaSource::open(recording.footage);
   const CameraModel camera = camera_for_footage(recording, source->info().width_px, source->info().height_px);
-  const std::unique_ptr<FrameTrack> track = make_tag_track(camera, scene);
 
-  Report report;
+  Report report, tracking;
+  const OverlayResult solved = solve_track(*MediaSource::open(recording.footage), camera, scene, FrameRange{}, log, tracking);
+  const std::unique_ptr<FrameTrack> track = make_recorded_track(solved.rows, camera, scene);
   Stage stage = build_stage(scene, log, report);
   MeasuringOutput output(recording.folder);
   const OverlayResult overlaid = run_overlay(*source, *track, stage, scene, camera, output, FrameRange{}, log, report);

@@ -46,7 +46,9 @@ TrackRow random_row(std::mt19937_64& random, std::int64_t frame) {
   row.camera_from_tag.translation_m = vector();
   row.exposure = vector();
   row.black = vector() * 1e-9;
-  row.corner_rms_px = uniform(random);
+  row.corner_sigma_px = uniform(random);
+  row.blur_px2 = {uniform(random), uniform(random), uniform(random)};
+  row.noise_codes = uniform(random);
   row.ambiguity = uniform(random);
   return row;
 }
@@ -70,7 +72,11 @@ void expect_same(const TrackRow& a, const TrackRow& b) {
   EXPECT_TRUE(same_bits(a.camera_from_tag.translation_m, b.camera_from_tag.translation_m));
   EXPECT_TRUE(same_bits(a.exposure, b.exposure));
   EXPECT_TRUE(same_bits(a.black, b.black));
-  EXPECT_TRUE(same_bits(a.corner_rms_px, b.corner_rms_px));
+  EXPECT_TRUE(same_bits(a.corner_sigma_px, b.corner_sigma_px));
+  EXPECT_TRUE(same_bits(a.blur_px2.xx, b.blur_px2.xx));
+  EXPECT_TRUE(same_bits(a.blur_px2.xy, b.blur_px2.xy));
+  EXPECT_TRUE(same_bits(a.blur_px2.yy, b.blur_px2.yy));
+  EXPECT_TRUE(same_bits(a.noise_codes, b.noise_codes));
   EXPECT_TRUE(same_bits(a.ambiguity, b.ambiguity));
 }
 
@@ -95,8 +101,8 @@ TEST(TrackFile, LostFrameHasEmptyPoseCells) {
   EXPECT_EQ(
       tests::read_text(folder.path("track.csv")),
       "frame,time_s,found,r00,r01,r02,r10,r11,r12,r20,r21,r22,tx,ty,tz,state,exposure_r,exposure_g,exposure_b,black_r,black_g,"
-      "black_b,corner_rms_px,ambiguity\n"
-      "4,0.5,0,,,,,,,,,,,,,lost,1,1,1,0,0,0,0,0\n");
+      "black_b,corner_sigma_px,ambiguity,blur_xx_px2,blur_xy_px2,blur_yy_px2,noise_codes\n"
+      "4,0.5,0,,,,,,,,,,,,,lost,1,1,1,0,0,0,0,0,0,0,0,0\n");
   const std::vector<TrackRow> back = read_track_file(folder.path("track.csv"));
   ASSERT_EQ(back.size(), 1u);
   expect_same(back[0], lost);

@@ -1,0 +1,26 @@
+// Which of two planar poses is the right one, decided over a whole path.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "tracking/tracker.hpp"
+
+namespace catchlight::tracking {
+
+/// One frame's measurement: one or two candidates, or none where the tag was not seen.
+struct PathFrame {
+  double time_s = 0;
+  std::vector<PoseCandidate> candidates;
+};
+
+struct Branch {
+  std::size_t candidate = 0;
+  double ambiguity = 0;  ///< probability that the other one is right, 0 where there is none
+};
+
+/// A hidden Markov chain of second order: what each frame's pixels say, and how steadily three frames turn. The likeliest path by
+/// Viterbi's algorithm, the doubt that is left by the forward-backward one. Every frame has candidates.
+std::vector<Branch> choose_branches(std::span<const PathFrame* const> frames);
+
+}  // namespace catchlight::tracking
