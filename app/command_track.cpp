@@ -4,29 +4,34 @@
 #include "app/commands.hpp"
 #include "app/output_file.hpp"
 #include "app/overlay.hpp"
+#include "app/track_export/track_export.hpp"
 
 namespace catchlight::app {
 
 namespace {
 
 struct Options {
-  std::string recording, output, report, frames;
+  std::string recording, output, track_in, report, frames;
   RecordingOverrides overrides;
   bool overwrite = false;
 };
 
 void track(const Options& options, Context& context) {
   const FrameRange range = options.frames.empty() ? FrameRange{} : parse_frame_range(options.frames);
+  check_track_format(options.output);
   check_output_path(options.output, options.overwrite);
   if (!options.report.empty()) check_output_path(options.report, options.overwrite);
   const Recording recording = open_recording(options.recording, options.overrides);
   const std::unique_ptr<MediaSource> source = MediaSource::open(recording.footage);
   const CameraModel camera = camera_for_footage(recording, source->info().width_px, source->info().height_px);
-  const std::unique_ptr<FrameTrack> frame_track = make_tag_track(camera, recording.scene);
+  const std::unique_ptr<FrameTrack> frame_track =
+      options.track_in.empty() ? make_tag_track(camera, recording.scene)
+                               : make_recorded_track(read_track_file(options.track_in), camera, recording.scene);
 
   Report report;
   const OverlayResult result = run_track(*source, *frame_track, range, context.log, report);
-  write_track_file(options.output, result.rows, options.overwrite);
+  write_track(options.output, result.rows, {camera, recording.scene, source->info().is_sequence}, options.overwrite,
+              context.log.warning_handler());
   report.warnings = context.log.warnings();
   if (!options.report.empty()) write_report(options.report, report, options.overwrite);
   context.log.info(report_summary(report));
@@ -41,10 +46,16 @@ void track(const Options& options, Context& context) {
 void set_up_track(CLI::App& command, Context& context) {
   const auto options = std::make_shared<Options>();
   add_recording_options(command, options->recording, options->overrides);
-  command.add_option("-o,--output", options->output, "track file, CSV: pose and exposure of every frame")->required();
+  command
+      .add_option(
+          "-o,--output", options->output,
+          "track.csv (what --track reads), .jsonl; of the camera alone .tum or .txt (TUM RGB-D), .chan (Nuke), .gltf, .glb")
+      ->required();
   command.add_flag("-y,--overwrite", options->overwrite, "replace existing outputs");
   command.add_option("--frames", options->frames,
                      "only frames A:B, numbered from 0 (image sequences: by their own numbers), B left out");
+  command.add_option("--track", options->track_in, "write this track file in another format, instead of tracking")
+      ->type_name("FILE");
   command.add_option("--report", options->report, "write what was done and how long it took, JSON");
   command.callback([options, &context] { track(*options, context); });
 }
