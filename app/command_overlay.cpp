@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 
 #include "app/commands.hpp"
@@ -14,6 +15,7 @@ struct Options {
   std::string recording, output, track_in, track_out, report, frames;
   RecordingOverrides overrides;
   SinkOptions sink;
+  bool debug = false;
 };
 
 std::unique_ptr<FrameTrack> open_track(const Options& options, const CameraModel& camera, const SceneSettings& scene) {
@@ -23,6 +25,9 @@ std::unique_ptr<FrameTrack> open_track(const Options& options, const CameraModel
 
 void overlay(const Options& options, Context& context) {
   const FrameRange range = options.frames.empty() ? FrameRange{} : parse_frame_range(options.frames);
+  if (options.debug && std::filesystem::path(options.output).extension() == ".exr")
+    throw UsageError("--debug draws on pictures, and " + options.output +
+                     " is layers; choose a video or %04d.png, or leave --debug out");
   if (!options.track_out.empty()) {
     check_track_format(options.track_out);
     check_output_path(options.track_out, options.sink.overwrite);
@@ -36,6 +41,7 @@ void overlay(const Options& options, Context& context) {
 
   Report report;
   Stage stage = build_stage(recording.scene, context.log, report);
+  stage.draws_debug = options.debug;
   const OverlayResult result = run_overlay(*source, *track, stage, recording.scene, camera, *output, range, context.log, report);
   if (!options.track_out.empty())
     write_track(options.track_out, result.rows, {camera, recording.scene, source->info().is_sequence}, options.sink.overwrite,
@@ -63,6 +69,7 @@ void set_up_overlay(CLI::App& command, Context& context) {
                      "only frames A:B, numbered from 0 (image sequences: by their own numbers), B left out");
   command.add_option("--track", options->track_in, "poses from this track file instead of from the pictures");
   command.add_option("--track-out", options->track_out, "write the track, in any format of `catchlight track`");
+  command.add_flag("--debug", options->debug, "draw the tag's corners, axes, state and residual over the frames");
   command.add_option("--report", options->report, "write what was done and how long it took, JSON");
   command.add_option("--codec", options->sink.codec, "h264 or ffv1, instead of what the extension says")
       ->check(CLI::IsMember({"h264", "ffv1"}));

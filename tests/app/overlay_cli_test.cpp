@@ -137,6 +137,18 @@ TEST_F(OverlayCommand, BarePosesServeAsATrack) {
   EXPECT_LT(cv::mean(difference)[0], 0.3) << "our track is as good as the truth";
 }
 
+TEST_F(OverlayCommand, DebugDrawsOverTheFrameAndNotIntoLayers) {
+  const std::string copy = copied_recording(1);
+  ASSERT_EQ(overlay(copy, folder_.path("plain_%04d.png")).exit_code, 0);
+  ASSERT_EQ(overlay(copy, folder_.path("debug_%04d.png"), {"--debug"}).exit_code, 0);
+  const cv::Mat plain = cv::imread(folder_.path("plain_0000.png")), debug = cv::imread(folder_.path("debug_0000.png"));
+  EXPECT_GT(cv::norm(plain.rowRange(0, 60), debug.rowRange(0, 60), cv::NORM_INF), 50) << "text";
+  EXPECT_GT(cv::norm(plain.rowRange(200, 300), debug.rowRange(200, 300), cv::NORM_INF), 50) << "outline";
+  EXPECT_EQ(cv::norm(plain.rowRange(400, 480), debug.rowRange(400, 480), cv::NORM_INF), 0) << "nothing";
+  const std::string layers = folder_.path("layers.%04d.exr");
+  expect_refused(overlay(copy, layers, {"--debug"}), layers, {"--debug", "layers.%04d.exr"}, 2);
+}
+
 TEST_F(OverlayCommand, ExrLayersRecomposeToTheComposite) {
   const std::string copy = copied_recording(1);
   ASSERT_EQ(overlay(copy, folder_.path("layers.%04d.exr")).exit_code, 0);
