@@ -49,9 +49,11 @@ std::string beyond_pinhole(const CameraModel& camera) {
   const double x_px = camera.cx_px - (camera.width_px - 1) / 2.0, y_px = camera.cy_px - (camera.height_px - 1) / 2.0;
   std::string text = camera.has_distortion() ? "the lens distortion" : "";
   if (std::max(std::abs(x_px), std::abs(y_px)) > 0.5) {
-    const auto rounded = [](double px) { return number_text(std::round(px * 100) / 100); };
-    text += (text.empty() ? "" : " and ") + std::string("the principal point, which lies ") + rounded(x_px) +
-            " px right of and " + rounded(y_px) + " px below the middle";
+    const auto away = [](double px, const char* positive, const char* negative) {
+      return number_text(std::abs(std::round(px * 100) / 100)) + " px " + (px < 0 ? negative : positive);
+    };
+    text += (text.empty() ? "" : " and ") + std::string("the principal point, which lies ") + away(x_px, "right of", "left of") +
+            " and " + away(y_px, "below", "above") + " the middle";
   }
   return text;
 }

@@ -255,7 +255,7 @@ TEST(TrackExport, WhatAFieldOfViewDoesNotSayIsWarnedOf) {
     EXPECT_THAT(warnings(name),
                 ElementsAre(HasSubstr(std::string(name) +
                                       " does not hold the lens distortion and the principal point, which lies 12.25 px "
-                                      "right of and -3 px below the middle")));
+                                      "right of and 3 px above the middle")));
   for (const char* name : {"a.csv", "a.jsonl", "a.tum"}) EXPECT_THAT(warnings(name), IsEmpty());
 }
 
