@@ -1,9 +1,11 @@
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 
 #include "app/commands.hpp"
 #include "app/output_file.hpp"
 #include "app/overlay.hpp"
+#include "app/track_export/track_export.hpp"
 
 namespace catchlight::app {
 
@@ -13,7 +15,7 @@ struct Options {
   std::string recording, output, track_in, track_out, report, frames;
   RecordingOverrides overrides;
   SinkOptions sink;
-  bool causal = false;
+  bool causal = false, debug = false;
 };
 
 /// Recorded footage is tracked as a whole before its first frame is drawn.
@@ -30,7 +32,13 @@ std::unique_ptr<FrameTrack> open_track(const Options& options, const Recording& 
 
 void overlay(const Options& options, Context& context) {
   const FrameRange range = options.frames.empty() ? FrameRange{} : parse_frame_range(options.frames);
-  if (!options.track_out.empty()) check_output_path(options.track_out, options.sink.overwrite);
+  if (options.debug && std::filesystem::path(options.output).extension() == ".exr")
+    throw UsageError("--debug draws on pictures, and " + options.output +
+                     " is layers; choose a video or %04d.png, or leave --debug out");
+  if (!options.track_out.empty()) {
+    check_track_format(options.track_out);
+    check_output_path(options.track_out, options.sink.overwrite);
+  }
   if (!options.report.empty()) check_output_path(options.report, options.sink.overwrite);
   const Recording recording = open_recording(options.recording, options.overrides);
   const std::unique_ptr<MediaSource> source = MediaSource::open(recording.footage);
@@ -41,10 +49,12 @@ void overlay(const Options& options, Context& context) {
   const std::unique_ptr<FrameTrack> track =
       open_track(options, recording, camera, source->info().is_live, range, context, report);
   Stage stage = build_stage(recording.scene, context.log, report);
+  stage.draws_debug = options.debug;
   const OverlayResult result = run_overlay(*source, *track, stage, recording.scene, camera, *output, range, context.log, report);
-
+  if (!options.track_out.empty())
+    write_track(options.track_out, result.rows, {camera, recording.scene, source->info().is_sequence}, options.sink.overwrite,
+                context.log.warning_handler());
   report.warnings = context.log.warnings();
-  if (!options.track_out.empty()) write_track_file(options.track_out, result.rows, options.sink.overwrite);
   if (!options.report.empty()) write_report(options.report, report, options.sink.overwrite);
   context.log.info(report_summary(report));
   if (result.damage) {
@@ -66,8 +76,9 @@ void set_up_overlay(CLI::App& command, Context& context) {
   command.add_option("--frames", options->frames,
                      "only frames A:B, numbered from 0 (image sequences: by their own numbers), B left out");
   command.add_option("--track", options->track_in, "poses from this track file instead of from the pictures");
-  command.add_option("--track-out", options->track_out, "write the track, CSV");
+  command.add_option("--track-out", options->track_out, "write the track, in any format of `catchlight track`");
   command.add_flag("--causal", options->causal, "track as live footage is: each frame knows only those before it");
+  command.add_flag("--debug", options->debug, "draw the tag's corners, axes, state and residual over the frames");
   command.add_option("--report", options->report, "write what was done and how long it took, JSON");
   command.add_option("--codec", options->sink.codec, "h264 or ffv1, instead of what the extension says")
       ->check(CLI::IsMember({"h264", "ffv1"}));

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <chrono>
 
+#include "app/debug_drawing.hpp"
 #include "app/exposure.hpp"
 #include "app/progress.hpp"
 
@@ -136,6 +137,7 @@ OverlayResult run_overlay(MediaSource& source, FrameTrack& track, Stage& stage, 
           view, [&](const PixelRect& rect) { return frame.rgb(rect); }, output.wants_layers());
       for (const render::PassTime& pass : stage.compositor->pass_times()) report.stages.add(pass.name, pass.ms);
     }
+    if (stage.draws_debug) draw_debug(frame, row, camera, scene.tag.size_m, composite);
     report.stages.measure("encode", [&] { output.write(frame, composite); });
   });
   if (report.frames == 0)

@@ -33,6 +33,7 @@ struct Stage {
   std::unique_ptr<render::GlContext> context;
   BuiltScene built;
   std::unique_ptr<render::Compositor> compositor;
+  bool draws_debug = false;  ///< over every finished frame, as app/debug_drawing.hpp says
 };
 
 /// Loads, bakes and uploads; adds plan and renderer to the report. Throws Error.

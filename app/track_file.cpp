@@ -6,7 +6,6 @@
 #include <map>
 #include <optional>
 
-#include "app/output_file.hpp"
 #include "app/text.hpp"
 
 namespace catchlight::app {
@@ -44,18 +43,6 @@ bool is_rotation(const glm::dmat3& m) {
     for (int j = 0; j < 3; ++j)
       if (std::abs(product[i][j] - (i == j ? 1.0 : 0.0)) > kRotationTolerance) return false;
   return glm::determinant(m) > 0;
-}
-
-const char* name_of(TrackState state) {
-  switch (state) {
-    case TrackState::tracking:
-      return "tracking";
-    case TrackState::coasting:
-      return "coasting";
-    case TrackState::lost:
-      return "lost";
-  }
-  throw Error("not a track state: " + std::to_string(static_cast<int>(state)));
 }
 
 class Reader {
@@ -202,14 +189,26 @@ std::string row_text(const TrackRow& row) {
 
 }  // namespace
 
+const char* name_of(TrackState state) {
+  switch (state) {
+    case TrackState::tracking:
+      return "tracking";
+    case TrackState::coasting:
+      return "coasting";
+    case TrackState::lost:
+      return "lost";
+  }
+  throw Error("not a track state: " + std::to_string(static_cast<int>(state)));
+}
+
 std::vector<TrackRow> read_track_file(const std::string& path) {
   return Reader(path).read();
 }
 
-void write_track_file(const std::string& path, const std::vector<TrackRow>& rows, bool overwrite) {
+std::string track_file_text(const std::vector<TrackRow>& rows) {
   std::string text = header_text();
   for (const TrackRow& row : rows) text += row_text(row);
-  write_text_file(path, text, overwrite);
+  return text;
 }
 
 }  // namespace catchlight::app

@@ -29,13 +29,15 @@ struct TrackRow {
   double noise_codes = 0;          ///< on the tag, in 8-bit codes; 0: not measured
 };
 
+/// As the files say it: "tracking", "coasting", "lost".
+const char* name_of(tracking::TrackState state);
+
 /// Columns are found by name; `frame` is needed, and r00 .. tz unless every row has found 0. A file without the others (known
 /// poses) reads too: found, tracking, without exposure. Throws Error "file:line: ..." for what is malformed, not a rotation (more
 /// than 1e-3 off orthonormal or mirrored), not finite, or not in rising order of frames.
 std::vector<TrackRow> read_track_file(const std::string& path);
 
-/// Every number is the shortest text that reads back to the same bits. Written beside and renamed. Throws Error: unwritable;
-/// UsageError: exists without `overwrite`.
-void write_track_file(const std::string& path, const std::vector<TrackRow>& rows, bool overwrite);
+/// Every number is the shortest text that reads back to the same bits.
+std::string track_file_text(const std::vector<TrackRow>& rows);
 
 }  // namespace catchlight::app

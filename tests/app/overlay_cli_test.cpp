@@ -137,6 +137,18 @@ TEST_F(OverlayCommand, BarePosesServeAsATrack) {
   EXPECT_LT(cv::mean(difference)[0], 0.3) << "our track is as good as the truth";
 }
 
+TEST_F(OverlayCommand, DebugDrawsOverTheFrameAndNotIntoLayers) {
+  const std::string copy = copied_recording(1);
+  ASSERT_EQ(overlay(copy, folder_.path("plain_%04d.png")).exit_code, 0);
+  ASSERT_EQ(overlay(copy, folder_.path("debug_%04d.png"), {"--debug"}).exit_code, 0);
+  const cv::Mat plain = cv::imread(folder_.path("plain_0000.png")), debug = cv::imread(folder_.path("debug_0000.png"));
+  EXPECT_GT(cv::norm(plain.rowRange(0, 60), debug.rowRange(0, 60), cv::NORM_INF), 50) << "text";
+  EXPECT_GT(cv::norm(plain.rowRange(200, 300), debug.rowRange(200, 300), cv::NORM_INF), 50) << "outline";
+  EXPECT_EQ(cv::norm(plain.rowRange(400, 480), debug.rowRange(400, 480), cv::NORM_INF), 0) << "nothing";
+  const std::string layers = folder_.path("layers.%04d.exr");
+  expect_refused(overlay(copy, layers, {"--debug"}), layers, {"--debug", "layers.%04d.exr"}, 2);
+}
+
 TEST_F(OverlayCommand, ExrLayersRecomposeToTheComposite) {
   const std::string copy = copied_recording(1);
   ASSERT_EQ(overlay(copy, folder_.path("layers.%04d.exr")).exit_code, 0);
@@ -279,7 +291,8 @@ TEST_F(OverlayCommand, MeshWithoutTrianglesIsRefused) {
 
 TEST_F(OverlayCommand, MeshWithoutNormalsIsDrawn) {
   const std::string copy = copied_recording(1);
-  std::ofstream(copy + "/bare.obj") << "v -0.03 0 -0.03\nv 0.03 0 -0.03\nv 0 0 0.03\nv 0 0.06 0\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n";
+  std::ofstream(copy + "/bare.obj")
+      << "v -0.03 0 -0.03\nv 0.03 0 -0.03\nv 0 0 0.03\nv 0 0.06 0\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n";
   const CommandResult result = overlay(copy, out_, {"--object.mesh", copy + "/bare.obj"});
   EXPECT_EQ(result.exit_code, 0) << result.error;
 }
@@ -293,6 +306,28 @@ TEST_F(OverlayCommand, TrackNeedsNeitherMeshNorProbe) {
   const CommandResult result = run_catchlight({"track", copy, "-o", folder_.path("track.csv"), "--quiet"});
   ASSERT_EQ(result.exit_code, 0) << result.error;
   EXPECT_THAT(read_text(folder_.path("track.csv")), HasSubstr("tracking"));
+}
+
+TEST_F(OverlayCommand, KnownPosesAreWrittenInAnotherFormatWithTheFootagesTimes) {
+  const std::string copy = copied_recording(2);
+  const std::vector<std::string> arguments = {"track", copy, "--track", recording() + "/poses.csv", "--quiet"};
+  const auto exported = [&](const std::string& name) {
+    std::vector<std::string> all = arguments;
+    all.insert(all.end(), {"-o", folder_.path(name)});
+    const CommandResult result = run_catchlight(all);
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+    return read_text(folder_.path(name));
+  };
+  EXPECT_THAT(exported("path.tum"), HasSubstr("\n0 -0.28"));
+  EXPECT_THAT(exported("path.tum.csv"), HasSubstr("\n1,0.0416"));
+  EXPECT_THAT(exported("path.chan"), HasSubstr("1 -0.28"));
+  EXPECT_EQ(exported("path.glb").substr(0, 4), "glTF");
+}
+
+TEST_F(OverlayCommand, UnknownTrackFormatIsFoundOutBeforeTheWork) {
+  const std::string copy = copied_recording(1), odd = folder_.path("track.fbx");
+  expect_refused(run_catchlight({"track", copy, "-o", odd}), odd, {"track.fbx", "\".glb\""}, 2);
+  expect_refused(overlay(copy, out_, {"--track-out", odd}), out_, {"track.fbx", "\".glb\""}, 2);
 }
 
 TEST_F(OverlayCommand, ReplayWithoutExpectedFiguresFailsAndBlessWritesThem) {

@@ -86,8 +86,7 @@ TEST(TrackFile, EveryBitSurvives) {
   std::mt19937_64 random(3);
   std::vector<TrackRow> rows;
   for (int i = 0; i < 200; ++i) rows.push_back(random_row(random, 5 + 3 * i));
-  write_track_file(folder.path("track.csv"), rows, false);
-  const std::vector<TrackRow> back = read_track_file(folder.path("track.csv"));
+  const std::vector<TrackRow> back = read_track_file(folder.write("track.csv", track_file_text(rows)));
   ASSERT_EQ(back.size(), rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) expect_same(back[i], rows[i]);
 }
@@ -97,13 +96,12 @@ TEST(TrackFile, LostFrameHasEmptyPoseCells) {
   TrackRow lost;
   lost.frame = 4;
   lost.time_s = 0.5;
-  write_track_file(folder.path("track.csv"), {lost}, false);
   EXPECT_EQ(
-      tests::read_text(folder.path("track.csv")),
+      track_file_text({lost}),
       "frame,time_s,found,r00,r01,r02,r10,r11,r12,r20,r21,r22,tx,ty,tz,state,exposure_r,exposure_g,exposure_b,black_r,black_g,"
       "black_b,corner_sigma_px,ambiguity,blur_xx_px2,blur_xy_px2,blur_yy_px2,noise_codes\n"
       "4,0.5,0,,,,,,,,,,,,,lost,1,1,1,0,0,0,0,0,0,0,0,0\n");
-  const std::vector<TrackRow> back = read_track_file(folder.path("track.csv"));
+  const std::vector<TrackRow> back = read_track_file(folder.write("track.csv", track_file_text({lost})));
   ASSERT_EQ(back.size(), 1u);
   expect_same(back[0], lost);
 }
@@ -193,13 +191,6 @@ TEST(TrackFile, RoundedRotationsAreAccepted) {
 TEST(TrackFile, MissingFileIsNamed) {
   EXPECT_THAT(message_of<Error>([] { read_track_file("/nowhere/track.csv"); }),
               HasSubstr("/nowhere/track.csv: cannot open the track file"));
-}
-
-TEST(TrackFile, ExistingFileIsKept) {
-  const TemporaryFolder folder;
-  const std::string path = folder.write("track.csv", "mine");
-  EXPECT_THROW(write_track_file(path, {}, false), UsageError);
-  EXPECT_EQ(tests::read_text(path), "mine");
 }
 
 }  // namespace

@@ -1,0 +1,41 @@
+#include <nlohmann/json.hpp>
+
+#include "app/track_export/formats.hpp"
+
+namespace catchlight::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json rows_of(const RigidTransform& transform) {
+  Json matrix = Json::array();
+  for (int row = 0; row < 3; ++row)
+    matrix.push_back(
+        {transform.rotation[0][row], transform.rotation[1][row], transform.rotation[2][row], transform.translation_m[row]});
+  matrix.push_back({0.0, 0.0, 0.0, 1.0});
+  return matrix;
+}
+
+Json rgb_or_null(const TrackRow& row, const glm::dvec3& rgb) {
+  return row.has_exposure ? Json{rgb.r, rgb.g, rgb.b} : Json(nullptr);
+}
+
+}  // namespace
+
+std::string json_lines_text(const std::vector<TrackRow>& rows) {
+  std::string text;
+  for (const TrackRow& row : rows) {
+    const Json line{{"frame", row.frame},
+                    {"time_s", row.time_s},
+                    {"state", name_of(row.state)},
+                    {"camera_from_tag", row.found ? rows_of(row.camera_from_tag) : Json(nullptr)},
+                    {"exposure", rgb_or_null(row, row.exposure)},
+                    {"black", rgb_or_null(row, row.black)},
+                    {"corner_sigma_px", row.corner_sigma_px},
+                    {"ambiguity", row.ambiguity}};
+    text += line.dump() + '\n';
+  }
+  return text;
+}
+
+}  // namespace catchlight::app

@@ -1,0 +1,77 @@
+#include "app/track_export/track_export.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "app/output_file.hpp"
+#include "app/text.hpp"
+#include "app/track_export/formats.hpp"
+
+namespace catchlight::app {
+namespace {
+
+using Rows = std::vector<TrackRow>;
+
+struct Format {
+  std::string (*text)(const Rows& rows, const Shot& shot);
+  bool holds_lost_frames = false;
+  bool is_pinhole = false;  ///< of the camera it knows the field of view alone
+};
+
+const std::map<std::string, Format>& formats() {
+  static const std::map<std::string, Format> table{
+      {".csv", {[](const Rows& rows, const Shot&) { return track_file_text(rows); }, true}},
+      {".jsonl", {[](const Rows& rows, const Shot&) { return json_lines_text(rows); }, true}},
+      {".tum", {[](const Rows& rows, const Shot&) { return tum_text(rows); }}},
+      {".txt", {[](const Rows& rows, const Shot&) { return tum_text(rows); }}},
+      {".chan", {chan_text, false, true}},
+      {".gltf", {gltf_text, false, true}},
+      {".glb", {glb_bytes, false, true}}};
+  return table;
+}
+
+const Format& format_of(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (const auto found = formats().find(extension); found != formats().end()) return found->second;
+  std::vector<std::string> known;
+  for (const auto& [name, format] : formats()) known.push_back(name);
+  throw UsageError(path + ": \"" + extension + "\" is no format of a track; expected " + quoted_list(known));
+}
+
+bool has_pose(const Rows& rows) {
+  return std::any_of(rows.begin(), rows.end(), [](const TrackRow& row) { return row.found; });
+}
+
+/// What a field of view does not say of the camera; empty where that is nothing, or less than half a pixel.
+std::string beyond_pinhole(const CameraModel& camera) {
+  const double x_px = camera.cx_px - (camera.width_px - 1) / 2.0, y_px = camera.cy_px - (camera.height_px - 1) / 2.0;
+  std::string text = camera.has_distortion() ? "the lens distortion" : "";
+  if (std::max(std::abs(x_px), std::abs(y_px)) > 0.5) {
+    const auto away = [](double px, const char* positive, const char* negative) {
+      return number_text(std::abs(std::round(px * 100) / 100)) + " px " + (px < 0 ? negative : positive);
+    };
+    text += (text.empty() ? "" : " and ") + std::string("the principal point, which lies ") + away(x_px, "right of", "left of") +
+            " and " + away(y_px, "below", "above") + " the middle";
+  }
+  return text;
+}
+
+}  // namespace
+
+void check_track_format(const std::string& path) {
+  format_of(path);
+}
+
+void write_track(const std::string& path, const std::vector<TrackRow>& rows, const Shot& shot, bool overwrite,
+                 const WarningHandler& warn) {
+  const Format& format = format_of(path);
+  if (!format.holds_lost_frames && !has_pose(rows))
+    throw Error(path + ": no frame has a pose, so there is no camera path to write; .csv and .jsonl hold lost frames too");
+  write_text_file(path, format.text(rows, shot), overwrite);
+  if (const std::string missing = beyond_pinhole(shot.camera); format.is_pinhole && !missing.empty())
+    warn(path + " does not hold " + missing + "; docs/track-formats.md says what to do about it");
+}
+
+}  // namespace catchlight::app
