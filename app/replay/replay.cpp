@@ -74,6 +74,7 @@ void add_figures(const PoseComparison& pose, std::vector<Figure>& figures) {
   figures.push_back({"pose.translation_median_mm", pose.translation_median_mm, 0.03});
   figures.push_back({"pose.rotation_median_deg", pose.rotation_median_deg, 0.02});
   figures.push_back({"pose.rotation_max_deg", pose.rotation_max_deg, 0.1});
+  figures.push_back({"pose.false_positives", static_cast<double>(pose.false_positives), 0});
   figures.push_back({"pose.flips", static_cast<double>(pose.flips), 0});
 }
 
