@@ -88,6 +88,12 @@ void shared_gradient(const Sampled& sampled, const CameraModel& camera, const gl
   gradient[8] = scale * second[1][1] / 2;
 }
 
+double quantile(std::vector<double>& values, double share) {
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
 void add_to(NormalEquations& equations, const Sums& sums) {
   NormalEquations::Part part;
   const auto entry = [&](int i, int j) { return sums.normal[std::min(i, j)][std::max(i, j)]; };
@@ -157,7 +163,7 @@ std::vector<Residual> DirectModel::residuals(const DirectParameters& at) const {
       const auto sampled = view.at(pixel.place);
       if (!sampled) continue;
       const double gain = amplitude(at.light[i], view.across(sampled->point.cell));
-      const double code = response_.code(at.light[i].black + gain * sampled->pattern.white).value;
+      const double code = response_->code(at.light[i].black + gain * sampled->pattern.white).value;
       residual = {true, sampled->pattern.edge, pixel.code - code};
     }
   }
@@ -176,7 +182,7 @@ DirectModel::Linearized DirectModel::linearize(const DirectParameters& at, const
       if (!sampled) continue;
       const glm::dvec2 across = view.across(sampled->point.cell);
       const double white = sampled->pattern.white, gain = amplitude(light, across);
-      const ResponseTable::Code code = response_.code(light.black + gain * white);
+      const ResponseTable::Code code = response_->code(light.black + gain * white);
       residual = {true, sampled->pattern.edge, pixel.code - code.value};
       result.equations.cost += loss.loss(residual.code);
       double gradient[Sums::kColumns] = {};
@@ -198,17 +204,15 @@ bool DirectModel::guess_light(DirectParameters& at) const {
   at.light.assign(parts_.size(), {});
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const PartView view(camera_, parts_[i], at);
-    double n = 0, w = 0, ww = 0, l = 0, wl = 0;
+    std::vector<double> whites, blacks;
     for (const TagPixel& pixel : parts_[i].pixels) {
       const auto sampled = view.at(pixel.place);
-      if (!sampled) continue;
-      const double white = sampled->pattern.white, linear = response_.linear_of(pixel.code);
-      n += 1, w += white, ww += white * white, l += linear, wl += white * linear;
+      if (sampled) (sampled->pattern.white > 0.5 ? whites : blacks).push_back(pixel.code);
     }
-    const double spread = n * ww - w * w;
-    if (!(spread > 1e-6 * n * n)) return false;
-    at.light[i].gain = (n * wl - w * l) / spread;
-    at.light[i].black = (l - at.light[i].gain * w) / n;
+    if (whites.empty() || blacks.empty()) return false;
+    // Of the lighter half and the darker half: what the blur mixes lies in the other halves.
+    at.light[i].black = response_->linear_of(quantile(blacks, 0.25));
+    at.light[i].gain = response_->linear_of(quantile(whites, 0.75)) - at.light[i].black;
     if (!(at.light[i].gain > 0)) return false;
   }
   return true;

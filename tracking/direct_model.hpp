@@ -66,7 +66,7 @@ struct Residual {
 class DirectModel {
  public:
   DirectModel(const CameraModel& camera, const ResponseTable& response, std::vector<TagPart> parts)
-      : camera_(camera), response_(response), parts_(std::move(parts)) {}
+      : camera_(camera), response_(&response), parts_(std::move(parts)) {}
 
   const std::vector<TagPart>& parts() const { return parts_; }
 
@@ -79,12 +79,12 @@ class DirectModel {
   };
   Linearized linearize(const DirectParameters& at, const RobustLoss& loss) const;
 
-  /// Least squares of each part's light, pose and blur given. False where a part shows no contrast.
+  /// Each part's light from its own lighter and darker pixels. False where a part shows no contrast.
   bool guess_light(DirectParameters& at) const;
 
  private:
   CameraModel camera_;
-  const ResponseTable& response_;
+  const ResponseTable* response_;
   std::vector<TagPart> parts_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tracking/cover.hpp"
 #include "tracking/direct_model.hpp"
 #include "tracking/lens.hpp"
 #include "tracking/planar_pose.hpp"
@@ -39,8 +40,10 @@ double robust_noise(const std::vector<Residual>& residuals, double least) {
   return sizes.empty() ? least : std::max(least, 1.4826 * median(sizes));
 }
 
-/// Zero-mean Gaussian priors on the blur's change and the light's slope.
-void add_priors(NormalEquations& equations, const DirectParameters& at, const Covariance2& usual_blur, double noise) {
+/// Zero-mean Gaussian priors on the blur's change and the light's slope. An even light has no slope at all.
+void add_priors(NormalEquations& equations, const DirectParameters& at, const Covariance2& usual_blur, double noise,
+                bool is_light_even) {
+  constexpr double kHeld = 1e6;
   const double blur = noise * noise / (kBlurPrior_px2 * kBlurPrior_px2);
   const double off[] = {at.blur_px2.xx - usual_blur.xx, at.blur_px2.xy - usual_blur.xy, at.blur_px2.yy - usual_blur.yy};
   for (int i = 0; i < 3; ++i) {
@@ -50,7 +53,7 @@ void add_priors(NormalEquations& equations, const DirectParameters& at, const Co
   }
   for (std::size_t i = 0; i < equations.parts.size(); ++i) {
     const TagLight& light = at.light[i];
-    const double slope = noise * noise / std::pow(kLightPrior * std::max(light.gain, 1e-3), 2);
+    const double slope = noise * noise / std::pow(kLightPrior * std::max(light.gain, 1e-3), 2) + (is_light_even ? kHeld : 0.0);
     const double slopes[] = {light.gain_u, light.gain_v};
     for (int k = 0; k < 2; ++k) {
       equations.parts[i].light(2 + k, 2 + k) += slope;
@@ -160,12 +163,15 @@ struct DirectRefiner::Impl {
     DirectParameters at;
     DirectModel::Linearized linearized;
     double noise = 0;
+    double kept_share = 1;  ///< of the pixels: the others are covered
+    bool is_another_print = false;
+    bool is_light_even = false;  ///< not yet let slope: a dark cover would pass for a slope far from the solution
   };
 
   DirectModel::Linearized linearize(const DirectModel& model, const DirectParameters& at, const Covariance2& usual_blur,
-                                    double noise) const {
+                                    double noise, bool is_light_even = false) const {
     auto result = model.linearize(at, {kLossSigmas * noise});
-    add_priors(result.equations, at, usual_blur, noise);
+    add_priors(result.equations, at, usual_blur, noise, is_light_even);
     return result;
   }
 
@@ -177,7 +183,7 @@ struct DirectRefiner::Impl {
     for (int step = 0; step < kMostSteps; ++step) {
       const auto next = stepped(fit.at, fit.linearized.equations, damping);
       std::optional<DirectModel::Linearized> there;
-      if (next) there = linearize(model, *next, usual_blur, fit.noise);
+      if (next) there = linearize(model, *next, usual_blur, fit.noise, fit.is_light_even);
       if (!there || !(there->equations.cost <= fit.linearized.equations.cost)) {
         damping = std::max(damping, 1e-3) * 10;
         if (damping > kMostDamping) return;
@@ -191,14 +197,39 @@ struct DirectRefiner::Impl {
     }
   }
 
-  /// With the noise that the start has, then with what is left of it.
+  /// With the noise that the start has, then with what is left of it, as long as it falls: under a lenient loss, what covers a
+  /// part of the tag still pulls.
   Fit solve(const DirectModel& model, const DirectParameters& start) const {
+    constexpr int kMostRounds = 6;
+    constexpr double kFallen = 0.9;
     const double least = kLeastNoiseCodes / response->codes_per_unit();
-    Fit fit{start, {}, robust_noise(model.residuals(start), least)};
-    for (const double until_px : {kNearPx, kSettledPx}) {
-      if (until_px != kNearPx) fit.noise = robust_noise(fit.linearized.residuals, least);
-      fit.linearized = linearize(model, fit.at, start.blur_px2, fit.noise);
-      minimize(model, fit, start.blur_px2, until_px);
+    Fit fit{start, {}, robust_noise(model.residuals(start), least), 1};
+    const auto has_slope = [](const TagLight& light) { return light.gain_u != 0 || light.gain_v != 0; };
+    for (int round = 0; round < kMostRounds; ++round) {
+      fit.is_light_even = round == 0 && std::none_of(start.light.begin(), start.light.end(), has_slope);
+      fit.linearized = linearize(model, fit.at, start.blur_px2, fit.noise, fit.is_light_even);
+      minimize(model, fit, start.blur_px2, round == 0 ? kNearPx : kSettledPx);
+      const double noise = robust_noise(fit.linearized.residuals, least);
+      if (round > 0 && noise > kFallen * fit.noise) break;
+      fit.noise = noise;
+    }
+    return fit;
+  }
+
+  /// As solve(), then without what is covered: `model` keeps the pixels that count.
+  Fit solve_uncovered(DirectModel& model, const DirectParameters& start) const {
+    constexpr int kMostRounds = 2;  // the first leaves less noise, in which fainter covers show
+    Fit fit = solve(model, start);
+    fit.is_another_print = shows_another_print(camera, *response, model.parts(), fit.at);
+    for (int round = 0; round < kMostRounds && !fit.is_another_print; ++round) {
+      auto uncovered = leave_out_covered(camera, model, fit.at, fit.linearized.residuals, {kLossSigmas * fit.noise});
+      if (!uncovered) break;
+      model = DirectModel(camera, *response, std::move(uncovered->parts));
+      DirectParameters again = fit.at;
+      again.light = uncovered->light;
+      const double kept_share = fit.kept_share * uncovered->kept_share;
+      fit = solve(model, again);
+      fit.kept_share = kept_share;
     }
     return fit;
   }
@@ -228,7 +259,7 @@ struct DirectRefiner::Impl {
   /// What a finished fit is worth.
   std::optional<DirectFit> judged(const DirectModel& model, const Fit& fit) const {
     const auto covariance = pose_covariance(fit.linearized.equations);
-    if (!covariance) return std::nullopt;
+    if (!covariance || fit.is_another_print) return std::nullopt;
     DirectFit result;
     result.camera_from_tag = fit.at.camera_from_target;
     for (int i = 0; i < 36; ++i)
@@ -254,6 +285,7 @@ struct DirectRefiner::Impl {
     result.pixels = static_cast<int>(index);
     if (!(edges > 0) || !(n > 0)) return std::nullopt;
     result.inlier_share = inliers / edges;
+    result.covered_share = 1 - fit.kept_share;
     result.explained = 1 - left / std::max(squares - sum * sum / n, 1e-12);
     result.log_likelihood = -kIndependence * losses / (fit.noise * fit.noise);
     return result;
@@ -271,9 +303,10 @@ std::optional<DirectFit> DirectRefiner::refine(const LumaView& luma, const Direc
   if (!impl.response || !impl.response->fits(luma)) impl.response.emplace(luma);
   DirectParameters at{start.camera_from_tag, start.blur_px2, {}};
   if (!impl.approach(luma, at, start.error_px)) return std::nullopt;
-  const auto model = impl.model_with_light(luma, at, {at.blur_px2, std::min(start.error_px, 1.0) / 2, 1, kMostPixels});
+  auto model = impl.model_with_light(luma, at, {at.blur_px2, std::min(start.error_px, 1.0) / 2, 1, kMostPixels});
   if (!model) return std::nullopt;
-  return impl.judged(*model, impl.solve(*model, at));
+  const Impl::Fit fit = impl.solve_uncovered(*model, at);
+  return impl.judged(*model, fit);
 }
 
 std::optional<DirectFit> DirectRefiner::other_pose(const LumaView& luma, DirectFit& fit) {
@@ -284,12 +317,13 @@ std::optional<DirectFit> DirectRefiner::other_pose(const LumaView& luma, DirectF
   if (!other || other->reprojection_rms_px > kRuledOutSigmas * sigma_px) return std::nullopt;
 
   DirectParameters here{fit.camera_from_tag, fit.blur_px2, {}};
-  const auto model = impl.model_with_light(luma, here, {fit.blur_px2, 0, 1, kMostPixels});
+  auto model = impl.model_with_light(luma, here, {fit.blur_px2, 0, 1, kMostPixels});
   if (!model) return std::nullopt;
-  Impl::Fit first = impl.solve(*model, here);
+  Impl::Fit first = impl.solve_uncovered(*model, here);
   DirectParameters there = first.at;
   there.camera_from_target = other->camera_from_tag;
   Impl::Fit second = impl.solve(*model, there);
+  second.kept_share = first.kept_share;
   constexpr double kSameAxis = 5e-3;  // a quarter of a degree: it came back
   const glm::dmat3 turn = second.at.camera_from_target.rotation - first.at.camera_from_target.rotation;
   if (std::max(glm::length(turn[0]), glm::length(turn[1])) < kSameAxis) return std::nullopt;

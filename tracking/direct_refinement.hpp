@@ -22,7 +22,8 @@ struct DirectFit {
   Covariance2 blur_px2;
   double white_linear = 0, black_linear = 0;  ///< the first seen tag's middle: luma of its white and black, made linear
   double noise_codes = 0;                     ///< robust standard deviation of what the model leaves, in 8-bit codes
-  double inlier_share = 0;                    ///< of the edge pixels, that fit within 3 standard deviations of the noise
+  double covered_share = 0;                   ///< of the pixels: left out, with their surroundings, as something covers them
+  double inlier_share = 0;                    ///< of the other edge pixels, that fit within 3 standard deviations
   double explained = 0;                       ///< share of the inliers' variance that the model explains, 0 to 1
   double log_likelihood = 0;                  ///< comparable among the fits of one call
   int pixels = 0;

@@ -27,6 +27,9 @@ class TagPattern {
   int cells_across() const { return cells_across_; }
   int margin() const { return margin_; }
 
+  /// White share of a cell of the print, 0 or 1; negative: unknown.
+  float cell(int column, int row) const { return white(column, row); }
+
   enum class Neighbourhood { unknown, plateau, edge };
 
   /// What lies within reach of a point.
@@ -38,7 +41,6 @@ class TagPattern {
   PatternSample sample(const glm::dvec2& cell, const Covariance2& blur_cells2) const;
 
  private:
-  /// White share of a cell; negative: unknown.
   float white(int column, int row) const;
 
   int cells_across_, margin_, side_;

@@ -88,7 +88,7 @@ struct Tracker::Impl {
     if (other && other->log_likelihood > fit->log_likelihood) std::swap(measurement.candidates[0], measurement.candidates[1]);
     const DirectFit& best = other && other->log_likelihood > fit->log_likelihood ? *other : *fit;
     measurement.appearance =
-        TagAppearance{best.white_linear, best.black_linear, best.blur_px2, best.noise_codes, best.inlier_share};
+        TagAppearance{best.white_linear, best.black_linear, best.blur_px2, best.noise_codes, best.covered_share};
     return measurement;
   }
 

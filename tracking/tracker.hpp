@@ -69,7 +69,7 @@ struct TagAppearance {
   double white_linear = 0, black_linear = 0;  ///< luma made linear, in the tag's middle; 1 = sensor white
   Covariance2 blur_px2;                       ///< of lens, motion and pixel together
   double noise_codes = 0;                     ///< standard deviation, 8-bit codes
-  double inlier_share = 1;                    ///< below 1 where something covers the tag
+  double covered_share = 0;                   ///< of the tag, by something else
 };
 
 /// One frame's result. Corners are in tag order (-,-) (+,-) (+,+) (-,+), in OpenCV's pixel convention, as seen (distorted).
