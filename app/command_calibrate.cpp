@@ -30,7 +30,7 @@ std::unique_ptr<CalibrationBoard> checkerboard_of(const Options& options, const 
     throw UsageError("--checkerboard is " + options.checkerboard +
                      "; expected the corners where four squares meet, at least 3x3 (a board of 10x7 squares is 9x6)");
   if (!given.square) throw UsageError("--checkerboard needs --square-m, the side of a square in metres");
-  if (!(options.square_m > 0)) throw UsageError("--square-m is " + number_text(options.square_m) + "; expected metres above 0");
+  check_length(options.square_m, "--square-m");
   return make_checkerboard(corners, options.square_m);
 }
 

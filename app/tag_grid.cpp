@@ -12,12 +12,6 @@ namespace {
 constexpr int kMostAcross = 100;  ///< of a board's columns and rows
 constexpr double kSmallest_m = 1e-4, kLargest_m = 100;
 
-void check_length(double length_m, const char* option) {
-  if (length_m >= kSmallest_m && length_m <= kLargest_m) return;
-  throw UsageError(std::string(option) + " is " + number_text(length_m) + "; expected metres, from " + number_text(kSmallest_m) +
-                   " to " + number_text(kLargest_m));
-}
-
 }  // namespace
 
 std::string metres_text(double length_m) {
@@ -43,6 +37,12 @@ glm::ivec2 columns_and_rows(const std::string& text, const std::string& option) 
     return {number(0), number(1)};
   throw UsageError(option + " is " + text + "; expected columns x rows, such as 4x3, each from 1 to " +
                    std::to_string(kMostAcross));
+}
+
+void check_length(double length_m, const std::string& option) {
+  if (length_m >= kSmallest_m && length_m <= kLargest_m) return;
+  throw UsageError(option + " is " + number_text(length_m) + "; expected metres, from " + number_text(kSmallest_m) + " to " +
+                   number_text(kLargest_m));
 }
 
 void check_tag_grid(const TagGrid& grid) {

@@ -31,6 +31,9 @@ TagReach tag_reach(const std::string& family);
 /// "4x3" as columns and rows. Throws UsageError naming `option`.
 glm::ivec2 columns_and_rows(const std::string& text, const std::string& option);
 
+/// Throws UsageError naming `option` for what is no length of a print: below 0.1 mm, above 100 m, no number.
+void check_length(double length_m, const std::string& option);
+
 /// Throws Error for a family or ids that do not exist, UsageError for sizes that are none and for tags closer than the white cell
 /// that they need between them.
 void check_tag_grid(const TagGrid& grid);
