@@ -23,7 +23,7 @@ glm::dvec2 ray_slope(const CameraModel& camera, const glm::dvec2& px) {
       std::array{camera.distortion[0], camera.distortion[1], camera.distortion[2], camera.distortion[3]};
   const glm::dvec2 distorted((px.x - camera.cx_px) / camera.fx_px, (px.y - camera.cy_px) / camera.fy_px);
   glm::dvec2 p = distorted;
-  for (int i = 0; i < 30; ++i) {
+  for (int i = 0; i < 15; ++i) {
     const double r2 = glm::dot(p, p);
     const glm::dvec2 tangential(2 * p1 * p.x * p.y + p2 * (r2 + 2 * p.x * p.x), p1 * (r2 + 2 * p.y * p.y) + 2 * p2 * p.x * p.y);
     p = (distorted - tangential) / (1 + k1 * r2 + k2 * r2 * r2);
@@ -36,18 +36,21 @@ cv::Mat1f pixel_light(const CameraModel& camera, const RigidTransform& camera_fr
   const RigidTransform board_from_camera = inverse(camera_from_board);
   const glm::dvec3 eye_m = board_from_camera.translation_m;
   cv::Mat1f picture(camera.height_px, camera.width_px, 0.0f);
+  std::vector<glm::dvec2> slopes;  // at the pixels' top left corners
+  for (int y = 0; y <= picture.rows; ++y)
+    for (int x = 0; x <= picture.cols; ++x) slopes.push_back(ray_slope(camera, {x - 0.5, y - 0.5}));
   // Rays are scattered within their cells: in a regular grid, all those along an upright edge would cross it together.
   std::mt19937 random(1);
   const auto scatter = [&] { return static_cast<double>(random()) / 4294967296.0; };
   for (int y = 0; y < picture.rows; ++y)
     for (int x = 0; x < picture.cols; ++x) {
       // Within a pixel the lens is linear to a thousandth of one.
-      const glm::dvec2 slope = ray_slope(camera, {x, y});
-      const glm::dvec2 right = ray_slope(camera, {x + 0.5, y}) - slope, down = ray_slope(camera, {x, y + 0.5}) - slope;
+      const glm::dvec2 slope = slopes[y * (picture.cols + 1) + x];
+      const glm::dvec2 right = slopes[y * (picture.cols + 1) + x + 1] - slope;
+      const glm::dvec2 down = slopes[(y + 1) * (picture.cols + 1) + x] - slope;
       double sum = 0;
       for (int i = 0; i < kRaysAcross * kRaysAcross; ++i) {
-        const double u = 2 * (i % kRaysAcross + scatter()) / kRaysAcross - 1,
-                     v = 2 * (i / kRaysAcross + scatter()) / kRaysAcross - 1;
+        const double u = (i % kRaysAcross + scatter()) / kRaysAcross, v = (i / kRaysAcross + scatter()) / kRaysAcross;
         const glm::dvec3 ray = board_from_camera.rotation * glm::dvec3(slope + u * right + v * down, 1);
         const double depth = -eye_m.z / ray.z;
         sum += depth > 0 ? light(glm::dvec2(eye_m + depth * ray)) : kBackground;
@@ -96,6 +99,15 @@ BoardLight tag_board(int columns, int rows, double size_m, double spacing_m, int
     const double x = ((right - column) * spacing_m / size_m + 0.5) * 8, y = ((down - row) * spacing_m / size_m + 0.5) * 8;
     if (x < 0 || y < 0 || x >= 8 || y >= 8) return kWhite;
     return tags[row * columns + column][static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] ? kWhite : kBlack;
+  };
+}
+
+BoardLight printed(const cv::Mat1b& picture, double pixels_per_m) {
+  return [=](const glm::dvec2& point_m) {
+    const int x = static_cast<int>(std::floor(picture.cols / 2.0 + point_m.x * pixels_per_m));
+    const int y = static_cast<int>(std::floor(picture.rows / 2.0 - point_m.y * pixels_per_m));
+    if (x < 0 || y < 0 || x >= picture.cols || y >= picture.rows) return kBackground;
+    return kBlack + (kWhite - kBlack) * picture(y, x) / 255;
   };
 }
 

@@ -128,6 +128,19 @@ TEST(Calibrate, TagBoardGivesTheCameraThatFilmedIt) {
   EXPECT_THAT(out.names(), ElementsAre("camera.yaml", "picture.png"));
 }
 
+TEST(Calibrate, ABoardThatTagHasPrintedIsTheBoardThatIsMeasured) {
+  const TemporaryFolder out;
+  const CommandResult print = run_catchlight({"tag", "-o", out.path("board.png"), "--board", "4x3", "--ids", "5:17", "--size-m",
+                                              "0.04", "--spacing-m", "0.05", "--paper", "fit", "--dpi", "508"});
+  ASSERT_EQ(print.exit_code, 0) << print.error;
+  const BoardLight sheet = printed(cv::imread(out.path("board.png"), cv::IMREAD_GRAYSCALE), 20000);  // 508 dpi
+  Footage footage;
+  for (const Placement& place : good_places()) footage.add(frame_of(sheet, place));
+  const CommandResult result = calibrate(footage.pattern(), out.path("camera.yaml"), kTagBoard);
+  expect_barrel_camera(result, out.path("camera.yaml"));
+  EXPECT_THAT(result.output, HasSubstr("0      48 "));
+}
+
 TEST(Calibrate, BlurredFramesAreLeftOutAndNamed) {
   Footage footage;
   for (std::size_t i = 0; i < good_places().size(); ++i) {
