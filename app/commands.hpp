@@ -26,11 +26,13 @@ struct Command {
 };
 
 void set_up_bake(CLI::App& command, Context& context);
+void set_up_calibrate(CLI::App& command, Context& context);
 void set_up_info(CLI::App& command, Context& context);
 void set_up_overlay(CLI::App& command, Context& context);
 void set_up_params(CLI::App& command, Context& context);
 void set_up_probe(CLI::App& command, Context& context);
 void set_up_replay(CLI::App& command, Context& context);
+void set_up_tag(CLI::App& command, Context& context);
 void set_up_track(CLI::App& command, Context& context);
 
 /// The positional RECORDING, --scene, --camera, --fov, and one option for every parameter. Both must live as long as `command`.

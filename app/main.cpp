@@ -10,6 +10,8 @@ constexpr Command kCommands[] = {
     {"replay", "Overlay recordings whose truth is known and say what drifted", set_up_replay},
     {"bake", "Precompute how light travels over a recording's objects", set_up_bake},
     {"probe", "Look at light probes and convert them", set_up_probe},
+    {"tag", "Print a tag or a board of tags at its exact size: PDF, SVG, PNG", set_up_tag},
+    {"calibrate", "Make camera.yaml from footage of a checkerboard or a board of tags", set_up_calibrate},
     {"info", "Versions, libraries and graphics: what a bug report needs", set_up_info},
     {"params", "List every parameter of a scene", set_up_params},
 };

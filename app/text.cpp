@@ -25,6 +25,12 @@ std::string number_text(double value) {
   return {buffer.data(), result.ptr};
 }
 
+std::string fixed_text(double value, int digits) {
+  std::array<char, 512> buffer;  // DBL_MAX has 309 digits
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed, digits);
+  return {buffer.data(), result.ptr};
+}
+
 std::optional<double> real_from_text(std::string_view text) {
   return number_from_text<double>(text);
 }

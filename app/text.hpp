@@ -12,6 +12,9 @@ namespace catchlight::app {
 /// The shortest text that reads back to the same bits.
 std::string number_text(double value);
 
+/// With that many digits after the point, never an exponent.
+std::string fixed_text(double value, int digits);
+
 /// The whole of `text` as a number, else empty. No leading '+' or spaces; "inf" and "nan" are numbers here.
 std::optional<double> real_from_text(std::string_view text);
 std::optional<std::int64_t> integer_from_text(std::string_view text);
