@@ -32,7 +32,7 @@ constexpr GaussNode kTwelvePoints[] = {{0.981560634246719, 0.047175336386512}, {
                                        {0.769902674194305, 0.160078328543346}, {0.587317954286617, 0.203167426723066},
                                        {0.367831498998180, 0.233492536538355}, {0.125233408511469, 0.249147045813403}};
 
-constexpr double kSeriesReach = 0.4;
+constexpr double kSeriesReach = 0.35;  ///< what is left out is under 5e-7
 constexpr int kSeriesTerms = 8;
 
 /// sum of rho^n / n! He(n-1, a) He(n-1, b)

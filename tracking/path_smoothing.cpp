@@ -17,6 +17,9 @@ using Vector = cv::Matx<double, 12, 1>;
 /// Spectral densities of acceleration that are tried: from a tripod to a jolt, (rad or m)²/s³.
 constexpr int kLevels = 33;
 constexpr double kLowestTurn = 1e-8, kLowestShift = 1e-10, kLevelFactor = 2.5;
+/// A level is only rejected where another explains the motion better by this: the likelihood-ratio test at 95 %. Of those that
+/// remain the quietest counts; the likeliest alone is often too restless by chance.
+constexpr double kRejection = 1.92;
 constexpr std::size_t kWindowFrames = 4, kWidestSpacing = 16;
 
 /// State: small rotation and translation errors, then angular and linear velocity. The mean holds what the errors are from.
@@ -46,9 +49,9 @@ Levels likelihoods(const Unsteadiness& deviation, double lowest, double lag_s, d
   return result;
 }
 
-/// Levels that are the likeliest around each measurement, at one spacing of the triples.
-void raise_to_likeliest(std::span<const TimedCandidate> path, const std::vector<Levels>& at_triples, std::size_t spacing,
-                        double lowest, std::vector<double>& levels) {
+/// The quietest levels that explain the motion around each measurement, at one spacing of the triples.
+void raise_to_quietest(std::span<const TimedCandidate> path, const std::vector<Levels>& at_triples, std::size_t spacing,
+                       double lowest, std::vector<double>& levels) {
   const std::size_t reach = std::max(spacing, kWindowFrames);
   for (std::size_t i = 0; i < path.size(); ++i) {
     Levels sum{};
@@ -57,8 +60,9 @@ void raise_to_likeliest(std::span<const TimedCandidate> path, const std::vector<
       if (middle + reach < i || middle > i + reach) continue;
       for (std::size_t l = 0; l < kLevels; ++l) sum[l] += at_triples[k][l];
     }
-    const auto best = std::max_element(sum.begin(), sum.end());
-    levels[i] = std::max(levels[i], level(lowest, static_cast<int>(best - sum.begin())));
+    const double least = *std::max_element(sum.begin(), sum.end()) - kRejection;
+    const auto quietest = std::find_if(sum.begin(), sum.end(), [&](double each) { return each >= least; });
+    levels[i] = std::max(levels[i], level(lowest, static_cast<int>(quietest - sum.begin())));
   }
 }
 
@@ -75,8 +79,8 @@ std::vector<Unrest> unrest_of(std::span<const TimedCandidate> path) {
       turns.push_back(likelihoods(unsteady_turn(first, second, third), kLowestTurn, lag_s, lag_before_s));
       shifts.push_back(likelihoods(unsteady_shift(first, second, third), kLowestShift, lag_s, lag_before_s));
     }
-    raise_to_likeliest(path, turns, spacing, kLowestTurn, turn);
-    raise_to_likeliest(path, shifts, spacing, kLowestShift, shift);
+    raise_to_quietest(path, turns, spacing, kLowestTurn, turn);
+    raise_to_quietest(path, shifts, spacing, kLowestShift, shift);
   }
   std::vector<Unrest> result;
   for (std::size_t i = 0; i < path.size(); ++i) result.push_back({turn[i], shift[i]});
@@ -165,13 +169,19 @@ struct Moment {
   bool asked = false;
 };
 
+/// Of the motion from one measurement to the next: between the two, whichever way time runs.
+Unrest between(const Unrest& a, const Unrest& b) {
+  return {std::sqrt(a.turn * b.turn), std::sqrt(a.shift * b.shift)};
+}
+
 std::vector<Moment> moments_of(std::span<const TimedCandidate> measured, std::span<const double> at_s) {
   const std::vector<Unrest> unrest = unrest_of(measured);
   std::vector<Moment> moments;
   std::size_t m = 0, a = 0;
   while (m < measured.size() || a < at_s.size()) {
     const bool take_measured = m < measured.size() && (a == at_s.size() || measured[m].time_s <= at_s[a]);
-    Moment moment{take_measured ? measured[m].time_s : at_s[a], nullptr, unrest[std::min(m, measured.size() - 1)], false};
+    const std::size_t last = m > 0 ? m - 1 : 0, next = std::min(m, measured.size() - 1);
+    Moment moment{take_measured ? measured[m].time_s : at_s[a], nullptr, between(unrest[last], unrest[next]), false};
     if (take_measured) moment.measured = &measured[m++].pose;
     if (a < at_s.size() && at_s[a] == moment.time_s) {
       moment.asked = true;

@@ -1,18 +1,30 @@
 #include "tracking/response_table.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace catchlight::tracking {
 namespace {
 
-constexpr int kSteps = 2048;  ///< sRGB is within 0.02 codes between them, and the table stays in the cache
+/// Nodes lie evenly in each octave of light above the darkest code's, as a float's bits do: curves with a power for a shadow
+/// (gamma, PQ, HLG) bend within a few octaves of black, where even steps of light would be tens of codes apart.
+constexpr int kStepBits = 6, kBitsBelow = 23 - kStepBits;
+constexpr float kLeastLight = 0x1p-26f;  ///< a tenth of gamma 2.8's first code
 
-/// Bisection: every transfer function rises.
+std::uint32_t node_of(float light) {
+  return std::bit_cast<std::uint32_t>(light) >> kBitsBelow;
+}
+
+float light_of(std::uint32_t node) {
+  return std::bit_cast<float>(node << kBitsBelow);
+}
+
+/// Bisection: no transfer function falls. Of several codes of the same light, the highest.
 double code_of(TransferFunction transfer, double linear, double low, double high) {
   for (int i = 0; i < 48; ++i) {
     const double middle = (low + high) / 2;
-    (linear_from_code(transfer, middle) < linear ? low : high) = middle;
+    (linear_from_code(transfer, middle) <= linear ? low : high) = middle;
   }
   return (low + high) / 2;
 }
@@ -22,24 +34,31 @@ double code_of(TransferFunction transfer, double linear, double low, double high
 ResponseTable::ResponseTable(const LumaView& luma)
     : black_code_(luma.black_code), span_(luma.white_code - luma.black_code), transfer_(luma.transfer) {
   for (int code = 0; code < 256; ++code) linear_[code] = linear_from_code(transfer_, (code - black_code_) / span_);
-  const double lowest = normalised(0), highest = normalised(255);
   first_linear_ = linear_[0];
-  steps_per_linear_ = kSteps / (linear_[255] - first_linear_);
-  codes_.reserve(kSteps + 1);
-  double code = lowest;
-  for (int i = 0; i <= kSteps; ++i) {
-    code = code_of(transfer_, first_linear_ + i / steps_per_linear_, code, highest);
-    codes_.push_back(static_cast<float>(code));
+  light_range_ = linear_[255] - first_linear_;
+  constexpr double kBeyond = 0.2;  // the last node is up to 1/64 brighter than the last code
+  const auto code_at = [&](double light) {
+    return code_of(transfer_, first_linear_ + light, normalised(0), normalised(255) + kBeyond);
+  };
+  first_code_ = code_at(0);
+  last_code_ = normalised(255);
+  double here = code_at(kLeastLight);
+  for (std::uint32_t node = node_of(kLeastLight); light_of(node) < light_range_; ++node) {
+    const double next = code_at(light_of(node + 1)), step = light_of(node + 1) - light_of(node);
+    nodes_.push_back({static_cast<float>(here), static_cast<float>((next - here) / step)});
+    here = next;
   }
 }
 
 ResponseTable::Code ResponseTable::code(double linear) const {
-  const double place = (linear - first_linear_) * steps_per_linear_;
-  if (!(place > 0)) return {codes_.front(), 0};
-  if (place >= kSteps) return {codes_.back(), 0};
-  const int i = static_cast<int>(place);
-  const double from = codes_[static_cast<std::size_t>(i)], rise = codes_[static_cast<std::size_t>(i) + 1] - from;
-  return {from + (place - i) * rise, rise * steps_per_linear_};
+  const double light = linear - first_linear_;
+  if (!(light > 0)) return {first_code_, 0};
+  if (light >= light_range_) return {last_code_, 0};
+  if (light < kLeastLight)
+    return {first_code_ + light / kLeastLight * (nodes_[0].value - first_code_), (nodes_[0].value - first_code_) / kLeastLight};
+  const std::uint32_t place = node_of(static_cast<float>(light));
+  const Node& node = nodes_[std::min<std::size_t>(place - node_of(kLeastLight), nodes_.size() - 1)];
+  return {node.value + (light - light_of(place)) * node.slope, node.slope};
 }
 
 bool ResponseTable::fits(const LumaView& luma) const {

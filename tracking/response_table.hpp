@@ -31,8 +31,12 @@ class ResponseTable {
   double black_code_, span_;
   TransferFunction transfer_;
   std::array<double, 256> linear_;
-  double first_linear_, steps_per_linear_;
-  std::vector<float> codes_;
+  double first_linear_, light_range_;  ///< from the light of code 0 to that of code 255
+  double first_code_, last_code_;
+  struct Node {
+    float value, slope;
+  };
+  std::vector<Node> nodes_;
 };
 
 }  // namespace catchlight::tracking

@@ -36,7 +36,7 @@ class TagPattern {
   Neighbourhood around(const glm::dvec2& cell, const glm::dvec2& reach_cells) const;
 
   /// The print convolved with a Gaussian of covariance `blur_cells2`. Every corner where four cells meet adds its
-  /// mixed difference times a bivariate normal distribution, every straight edge a univariate one; nothing beyond 4 standard
+  /// mixed difference times a bivariate normal distribution, every straight edge a univariate one; nothing beyond 3.5 standard
   /// deviations counts. Paper is white beyond the print.
   PatternSample sample(const glm::dvec2& cell, const Covariance2& blur_cells2) const;
 
