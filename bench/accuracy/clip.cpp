@@ -171,8 +171,8 @@ Clip stress_clip(const Stress& easy, const Stress& hard, unsigned seed) {
   Clip clip{stress_camera(easy, hard), {}, {}};
   const Motion motion(random, clip.camera, hard);
   glm::dvec2 center_px = motion.start_px;
-  // A smeared tag crosses the picture, its middle at the last hard frames.
-  center_px -= motion.smear_direction * (2 * hard.motion_px * (0.5 * kRisingFrames + 0.5 * kHardFrames) / 2);
+  // A smeared tag crosses the picture, half of its way on either side of the middle.
+  center_px -= motion.smear_direction * (hard.motion_px * (0.5 * kRisingFrames + kHardFrames));
   for (int k = 0; k < kEasyFrames + kRisingFrames + kHardFrames; ++k) {
     const double share = std::clamp((k - kEasyFrames + 1) / (kRisingFrames + 1.0), 0.0, 1.0);
     const Stress now = between(easy, hard, share);

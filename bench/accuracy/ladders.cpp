@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cstdio>
+#include <limits>
 
 #include "bench/accuracy/experiments.hpp"
 #include "bench/accuracy/score.hpp"
@@ -16,6 +18,7 @@ struct Ladder {
   double easy;
   std::vector<double> levels;
   Stress base = {};
+  double most_rise = std::numeric_limits<double>::infinity();  ///< from the easy frames to the hard ones
 };
 
 std::vector<Ladder> ladders() {
@@ -26,7 +29,7 @@ std::vector<Ladder> ladders() {
       {"noise", "Noise", "sigma_codes", &Stress::noise_codes, 0, {0, 1, 3, 5, 8, 12}},
       {"blur", "Defocus", "sigma_px", &Stress::blur_px, 0.5, {0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4}},
       {"motion", "Motion blur", "length_px", &Stress::motion_px, 0, {0, 2, 4, 8, 12}},
-      {"tilt", "Tilt", "tilt_deg", &Stress::tilt_deg, 30, {0, 15, 30, 45, 60, 70, 75, 80, 85}},
+      {"tilt", "Tilt", "tilt_deg", &Stress::tilt_deg, 30, {0, 15, 30, 45, 60, 70, 75, 80, 85}, {}, 10},
       {"cover_dark", "Covered by a dark bar", "covered_percent", &Stress::covered_percent, 0, {0, 10, 20, 30, 40, 50}},
       {"cover_bright",
        "Covered by a bright bar",
@@ -43,7 +46,7 @@ std::vector<Ladder> ladders() {
 LadderRow measure(const Ladder& ladder, double level) {
   LadderRow row{level, {}};
   Stress easy = ladder.base, hard = ladder.base;
-  easy.*ladder.value = ladder.easy;
+  easy.*ladder.value = std::max(ladder.easy, level - ladder.most_rise);
   hard.*ladder.value = level;
   each_clip(
       kClips, [&](unsigned seed) { return stress_clip(easy, hard, seed); }, {peers, rungs, followed},
