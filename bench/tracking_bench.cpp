@@ -1,5 +1,11 @@
-// What refinement and pose cost on top of detection. Compare the rows of one run; the machine's speed cancels there.
+// What a tracked frame costs beside detection alone, at 1280x720 with one thread. Compare the rows of one run; the machine's
+// speed cancels there. Add --benchmark_filter=cluttered or =flat for one kind of footage.
 #include <benchmark/benchmark.h>
+
+#include <opencv2/imgproc.hpp>
+#ifdef CATCHLIGHT_WITH_ARUCO
+#include <opencv2/aruco.hpp>
+#endif
 
 #include "tests/tracking/synthetic_tag.hpp"
 #include "tracking/corner_refinement.hpp"
@@ -10,69 +16,135 @@
 namespace catchlight::tracking {
 namespace {
 
+constexpr int kFrames = 12;
+constexpr double kNoiseCodes = 3;
+
+/// A tag of 120 px that moves by a pixel a frame, forth and back, among noise. Flat noisy ground is the detector's worst case.
 struct Footage {
-  SyntheticScene scene;
-  SyntheticFrame frame;
+  CameraModel camera{1280, 720, 1200, 1200, 639.5, 359.5, {}};
+  std::vector<SyntheticFrame> frames;
+
+  const SyntheticFrame& at(int i) const {
+    const int phase = i % (2 * kFrames - 2);
+    return frames[static_cast<std::size_t>(std::min(phase, 2 * kFrames - 2 - phase))];
+  }
 };
 
-/// One tag of a sixth of the image's width among sensor noise; `with_lens` adds distortion.
-Footage footage(const benchmark::State& state, bool with_lens) {
-  Footage result;
-  SyntheticScene& scene = result.scene;
-  const double scale = static_cast<double>(state.range(0)) / 640;
-  scene.camera = with_lens ? distorted_camera() : plain_camera();
-  scene.camera.width_px = static_cast<int>(state.range(0));
-  scene.camera.height_px = static_cast<int>(state.range(1));
-  for (double* value : {&scene.camera.fx_px, &scene.camera.fy_px, &scene.camera.cx_px, &scene.camera.cy_px}) *value *= scale;
-  scene.tags.resize(1);
-  scene.tags[0].camera_from_tag = tag_pose(scene.camera, {300 * scale, 200 * scale}, 0.45, {35, 10, 20});
-  scene.noise_codes = 2;
-  result.frame = render(scene);
-  return result;
+/// Upright boxes of all sizes and shades around the tag.
+void clutter(cv::Mat1f& linear, const cv::Rect& tag) {
+  const cv::Mat1f kept = linear(tag).clone();
+  cv::RNG random(1);
+  for (int i = 0; i < 600; ++i) {
+    const cv::Point corner(random.uniform(0, linear.cols), random.uniform(0, linear.rows));
+    const cv::Size size(random.uniform(5, 120), random.uniform(5, 120));
+    cv::rectangle(linear, {corner, size}, cv::Scalar(random.uniform(0.02, 0.7)), cv::FILLED);
+  }
+  cv::GaussianBlur(linear, linear, {}, 0.7);
+  kept.copyTo(linear(tag));
 }
 
-double decimation(const benchmark::State& state) {
-  return static_cast<double>(state.range(2));
+Footage make_footage(bool cluttered) {
+  Footage footage;
+  for (int i = 0; i < kFrames; ++i) {
+    SyntheticScene scene;
+    scene.camera = footage.camera;
+    scene.tags.resize(1);
+    scene.tags[0].camera_from_tag = tag_pose(scene.camera, {600.0 + i, 330.0 + 0.5 * i}, 0.8, {25 + 0.3 * i, 10, 20});
+    SyntheticFrame frame = render(scene);
+    cv::Mat1f linear(frame.height_px, frame.width_px, frame.linear.data());
+    if (cluttered) clutter(linear, {500, 230, 220, 220});
+    frame.codes = expose(frame.linear, kNoiseCodes, static_cast<unsigned>(i) + 1);
+    footage.frames.push_back(std::move(frame));
+  }
+  return footage;
 }
 
-void detection(benchmark::State& state) {
-  const Footage input = footage(state, false);
-  Detector detector("tag36h11", {});
-  for (auto _ : state) benchmark::DoNotOptimize(detector.detect(input.frame.luma(), decimation(state)));
+const Footage& footage(bool cluttered) {
+  static const Footage kinds[] = {make_footage(false), make_footage(true)};
+  return kinds[cluttered ? 1 : 0];
 }
 
-void refinement(benchmark::State& state, bool with_lens) {
-  const Footage input = footage(state, with_lens);
+TrackerOptions one_thread(Refinement refinement) {
+  TrackerOptions options;
+  options.refinement = refinement;
+  options.threads = 1;
+  return options;
+}
+
+void detect(benchmark::State& state, bool cluttered, double decimate) {
+  Detector detector("tag36h11", one_thread(Refinement::none));
+  int i = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(detector.detect(footage(cluttered).at(i++).luma(), decimate));
+}
+
+#ifdef CATCHLIGHT_WITH_ARUCO
+void aruco(benchmark::State& state, bool cluttered, cv::aruco::CornerRefineMethod refinement) {
+  cv::setNumThreads(1);
+  const auto dictionary = cv::aruco::getPredefinedDictionary(cv::aruco::DICT_APRILTAG_36h11);
+  const auto parameters = cv::aruco::DetectorParameters::create();
+  parameters->cornerRefinementMethod = refinement;
+  int i = 0;
+  for (auto _ : state) {
+    const SyntheticFrame& frame = footage(cluttered).at(i++);
+    const cv::Mat codes(frame.height_px, frame.width_px, CV_8U, const_cast<std::uint8_t*>(frame.codes.data()));
+    std::vector<std::vector<cv::Point2f>> squares;
+    std::vector<int> ids;
+    cv::aruco::detectMarkers(codes, dictionary, squares, ids, parameters);
+    benchmark::DoNotOptimize(squares);
+  }
+}
+#endif
+
+/// Frames `frame_s` apart: longer than a lost tag's pose is predicted, each is the first. `missed` counts frames without the tag.
+void track(benchmark::State& state, bool cluttered, Refinement refinement, double frame_s) {
+  Tracker tracker(footage(cluttered).camera, {}, one_thread(refinement));
+  int i = 0, missed = 0;
+  for (auto _ : state) {
+    const TagObservation seen = tracker.track(footage(cluttered).at(i).luma(), i * frame_s);
+    missed += seen.state != TrackState::tracking;
+    ++i;
+  }
+  state.counters["missed"] = missed;
+}
+
+void refine_edges(benchmark::State& state) {
+  const Footage& input = footage(false);
   const TagLayout layout = tag_layout("tag36h11", 0);
-  const auto corners_px = Detector("tag36h11", {}).detect(input.frame.luma(), decimation(state)).at(0).corners_px;
-  for (auto _ : state) benchmark::DoNotOptimize(refine_corners(input.frame.luma(), input.scene.camera, corners_px, layout));
+  const auto corners_px = Detector("tag36h11", {}).detect(input.at(0).luma()).at(0).corners_px;
+  for (auto _ : state) benchmark::DoNotOptimize(refine_corners(input.at(0).luma(), input.camera, corners_px, layout));
 }
+BENCHMARK(refine_edges)->Unit(benchmark::kMillisecond);
 
-void pose(benchmark::State& state) {
-  const Footage input = footage(state, false);
-  const auto corners_px = true_corners_px(input.scene.camera, input.scene.tags[0]);
-  for (auto _ : state) benchmark::DoNotOptimize(planar_poses(input.scene.camera, corners_px, 0.08));
+void planar_pose(benchmark::State& state) {
+  const Footage& input = footage(false);
+  const auto corners_px = Detector("tag36h11", {}).detect(input.at(0).luma()).at(0).corners_px;
+  for (auto _ : state) benchmark::DoNotOptimize(planar_poses(input.camera, corners_px, 0.08));
 }
+BENCHMARK(planar_pose)->Unit(benchmark::kMillisecond);
 
-void tracker(benchmark::State& state) {
-  const Footage input = footage(state, false);
-  Tracker tracker(input.scene.camera, {});
-  double time_s = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(tracker.track(input.frame.luma(), time_s += 0.04));
+void register_kind(const std::string& kind, bool cluttered) {
+  const auto add = [&](const std::string& name, auto&& run) {
+    benchmark::RegisterBenchmark((kind + "/" + name).c_str(), run)->Unit(benchmark::kMillisecond);
+  };
+  add("detect_decimate_1", [=](benchmark::State& state) { detect(state, cluttered, 1); });
+  add("detect_decimate_2", [=](benchmark::State& state) { detect(state, cluttered, 2); });
+#ifdef CATCHLIGHT_WITH_ARUCO
+  add("aruco_apriltag", [=](benchmark::State& state) { aruco(state, cluttered, cv::aruco::CORNER_REFINE_APRILTAG); });
+  add("aruco_subpix", [=](benchmark::State& state) { aruco(state, cluttered, cv::aruco::CORNER_REFINE_SUBPIX); });
+#endif
+  for (const auto& [rung, refinement] : {std::pair("none", Refinement::none), std::pair("corners", Refinement::corners),
+                                         std::pair("direct", Refinement::direct)}) {
+    add(std::string("follow_") + rung, [=](benchmark::State& state) { track(state, cluttered, refinement, 1 / 24.0); });
+    add(std::string("find_anew_") + rung, [=](benchmark::State& state) { track(state, cluttered, refinement, 10); });
+  }
 }
-
-void sizes(benchmark::internal::Benchmark* bench) {
-  bench->ArgNames({"width", "height", "decimate"})->Unit(benchmark::kMillisecond)->UseRealTime();
-  for (const int decimate : {1, 2}) bench->Args({640, 480, decimate})->Args({1280, 720, decimate});
-}
-
-BENCHMARK(detection)->Apply(sizes);
-BENCHMARK_CAPTURE(refinement, straight, false)->Apply(sizes);
-BENCHMARK_CAPTURE(refinement, distorted, true)->Apply(sizes);
-BENCHMARK(pose)->Apply(sizes);
-BENCHMARK(tracker)->Apply(sizes);
 
 }  // namespace
 }  // namespace catchlight::tracking
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  catchlight::tracking::register_kind("cluttered", true);
+  catchlight::tracking::register_kind("flat", false);
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+}
