@@ -6,8 +6,9 @@
 namespace catchlight::tracking {
 namespace {
 
-constexpr double kFittingWeight = 0.5;  ///< mean weight of a cell's pixels below which it is covered
-constexpr double kFewestPixels = 3;     ///< of a cell, to tell
+constexpr double kFittingWeight = 0.4;  ///< mean weight of a cell's pixels below which it is covered
+constexpr double kFewestPixels = 5;     ///< of a cell, to tell
+constexpr int kFewestCells = 3;         ///< smaller faults are for the robust loss
 constexpr double kLeastShare = 0.45;    ///< of the pixels, that have to stay: another print would match in as much as its border
 constexpr std::size_t kFewestOfPart = 40;
 
@@ -33,6 +34,12 @@ class CellMap {
   void add(const glm::dvec2& place, double weight) {
     weight_[index(place)] += weight;
     count_[index(place)] += 1;
+  }
+
+  int covered_cells() const {
+    int cells = 0;
+    for (std::size_t cell = 0; cell < weight_.size(); ++cell) cells += is_covered(cell);
+    return cells;
   }
 
   /// In a covered cell, or within half a cell of one.
@@ -116,9 +123,10 @@ std::optional<Uncovered> leave_out_covered(const CameraModel& camera, const Dire
       places.push_back(map.place_of(pixel));
       if (residual.known && places.back()) map.add(*places.back(), loss.weight(residual.code));
     }
+    const bool is_whole = map.covered_cells() < kFewestCells;
     TagPart left{part.pattern, part.size_m, part.target_from_tag, {}};
     for (std::size_t k = 0; k < part.pixels.size(); ++k)
-      if (places[k] && !map.is_suspect(*places[k])) left.pixels.push_back(part.pixels[k]);
+      if (is_whole || (places[k] && !map.is_suspect(*places[k]))) left.pixels.push_back(part.pixels[k]);
     if (left.pixels.size() < kFewestOfPart) continue;
     kept += left.pixels.size();
     result.parts.push_back(std::move(left));

@@ -7,21 +7,22 @@
 #include "tracking/direct_model.hpp"
 #include "tracking/lens.hpp"
 #include "tracking/planar_pose.hpp"
-#include "tracking/pose_covariance.hpp"
+#include "tracking/rotation.hpp"
 
 namespace catchlight::tracking {
 namespace {
 
 constexpr std::size_t kFewestPixels = 40;
-constexpr std::size_t kMostPixels = 4000, kMostCoarsePixels = 1000;
+constexpr std::size_t kMostPixels = 3000, kMostCoarsePixels = 1000;
 constexpr double kCoarseCellPx = 3;                 ///< blocks leave cells at least this large: smaller ones run together
 constexpr double kLossSigmas = 4;                   ///< the loss keeps 93 % of least squares' efficiency on Gaussian noise
 constexpr double kLeastNoiseCodes = 0.35;           ///< rounding alone leaves 0.29
 constexpr double kNearPx = 0.1, kSettledPx = 0.01;  ///< Gauss-Newton's next step would be a tenth of that
 /// What a frame's own fit may say against the usual: blur changes by a few px², light across a tag by a third.
 constexpr double kBlurPrior_px2 = 2, kLightPrior = 0.3;
-/// Beyond this many standard deviations of its corners, the other planar pose needs no look at the pixels to be ruled out.
-constexpr double kRuledOutSigmas = 20;
+/// The other planar pose is ruled out without a fit of its own where its corners are this far off, or its pixels speak this much
+/// against it.
+constexpr double kRuledOutPx = 4, kRuledOutLogOdds = 60;
 /// Residuals of neighbouring pixels go together (compression, the print's own faults): a pixel counts as this much of one.
 constexpr double kIndependence = 0.5;
 
@@ -91,7 +92,7 @@ std::optional<PlanarSquare> planar_square(const std::vector<BundledTag>& tags) {
   return PlanarSquare{(low + high) / 2.0, std::max(high.x - low.x, high.y - low.y)};
 }
 
-/// The pose that shows the square's corners in nearly the same places, and how far from them, rms.
+/// The pose that shows the square's corners in nearly the same places, and how far from them, rms, where that is known.
 std::optional<PoseHypothesis> mirrored(const CameraModel& camera, const PlanarSquare& square,
                                        const RigidTransform& camera_from_tag) {
   const RigidTransform tag_from_square{glm::dmat3(1.0), square.center_m};
@@ -103,8 +104,16 @@ std::optional<PoseHypothesis> mirrored(const CameraModel& camera, const PlanarSq
     corners_px[i] = *corner_px;
   }
   const auto poses = planar_poses(camera, corners_px, square.size_m);
-  if (poses.size() < 2) return std::nullopt;
-  return PoseHypothesis{poses[1].camera_from_tag * inverse(tag_from_square), poses[1].reprojection_rms_px};
+  if (poses.size() == 2) return PoseHypothesis{poses[1].camera_from_tag * inverse(tag_from_square), poses[1].reprojection_rms_px};
+  // Exact corners lead both solutions to one minimum where the view is nearly frontal; noisy pixels may still have two.
+  const RigidTransform camera_from_square = camera_from_tag * tag_from_square;
+  const glm::dvec3 normal = camera_from_square.rotation[2], sight = -glm::normalize(camera_from_square.translation_m);
+  const glm::dvec3 half_turn = glm::cross(normal, sight);  // its length is the sine of the tilt
+  const double tilt = std::atan2(glm::length(half_turn), glm::dot(normal, sight));
+  if (!(glm::length(half_turn) > 1e-6)) return std::nullopt;
+  const RigidTransform turned{rotation_matrix(glm::normalize(half_turn) * (2 * tilt)) * camera_from_square.rotation,
+                              camera_from_square.translation_m};
+  return PoseHypothesis{turned * inverse(tag_from_square), 0};
 }
 
 }  // namespace
@@ -234,6 +243,14 @@ struct DirectRefiner::Impl {
     return fit;
   }
 
+  double log_likelihood(const std::vector<Residual>& residuals, double noise) const {
+    const RobustLoss loss{kLossSigmas * noise};
+    double losses = 0;
+    for (const Residual& residual : residuals)
+      if (residual.known) losses += loss.loss(residual.code);
+    return -kIndependence * losses / (noise * noise);
+  }
+
   /// The model of the pixels around `at`, and light for it; empty where they show nothing of the target.
   std::optional<DirectModel> model_with_light(const LumaView& luma, DirectParameters& at, const PixelChoice& choice) {
     DirectModel model = model_at(luma, at, choice);
@@ -256,6 +273,13 @@ struct DirectRefiner::Impl {
     return true;
   }
 
+  /// What refine() found last.
+  struct Solved {
+    DirectModel model;
+    Fit fit;
+  };
+  std::optional<Solved> last;
+
   /// What a finished fit is worth.
   std::optional<DirectFit> judged(const DirectModel& model, const Fit& fit) const {
     const auto covariance = pose_covariance(fit.linearized.equations);
@@ -269,13 +293,12 @@ struct DirectRefiner::Impl {
     result.white_linear = fit.at.light[0].black + fit.at.light[0].gain;
     result.noise_codes = fit.noise * response->codes_per_unit();
     const RobustLoss loss{kLossSigmas * fit.noise};
-    double edges = 0, inliers = 0, losses = 0, n = 0, sum = 0, squares = 0, left = 0;
+    double edges = 0, inliers = 0, n = 0, sum = 0, squares = 0, left = 0;
     std::size_t index = 0;
     for (const TagPart& part : model.parts())
       for (const TagPixel& pixel : part.pixels) {
         const Residual& residual = fit.linearized.residuals[index++];
         if (!residual.known) continue;
-        losses += loss.loss(residual.code);
         const double weight = loss.weight(residual.code);
         n += weight, sum += weight * pixel.code, squares += weight * pixel.code * pixel.code;
         left += weight * residual.code * residual.code;
@@ -287,7 +310,7 @@ struct DirectRefiner::Impl {
     result.inlier_share = inliers / edges;
     result.covered_share = 1 - fit.kept_share;
     result.explained = 1 - left / std::max(squares - sum * sum / n, 1e-12);
-    result.log_likelihood = -kIndependence * losses / (fit.noise * fit.noise);
+    result.log_likelihood = log_likelihood(fit.linearized.residuals, fit.noise);
     return result;
   }
 };
@@ -300,29 +323,31 @@ DirectRefiner& DirectRefiner::operator=(DirectRefiner&&) noexcept = default;
 
 std::optional<DirectFit> DirectRefiner::refine(const LumaView& luma, const DirectStart& start) {
   Impl& impl = *impl_;
+  impl.last.reset();
   if (!impl.response || !impl.response->fits(luma)) impl.response.emplace(luma);
   DirectParameters at{start.camera_from_tag, start.blur_px2, {}};
   if (!impl.approach(luma, at, start.error_px)) return std::nullopt;
   auto model = impl.model_with_light(luma, at, {at.blur_px2, std::min(start.error_px, 1.0) / 2, 1, kMostPixels});
   if (!model) return std::nullopt;
-  const Impl::Fit fit = impl.solve_uncovered(*model, at);
-  return impl.judged(*model, fit);
+  Impl::Fit fit = impl.solve_uncovered(*model, at);
+  impl.last.emplace(Impl::Solved{std::move(*model), std::move(fit)});
+  return impl.judged(impl.last->model, impl.last->fit);
 }
 
-std::optional<DirectFit> DirectRefiner::other_pose(const LumaView& luma, DirectFit& fit) {
+std::optional<DirectFit> DirectRefiner::other_pose(DirectFit& fit) {
   Impl& impl = *impl_;
-  if (!impl.square) return std::nullopt;
+  if (!impl.square || !impl.last) return std::nullopt;
   const auto other = mirrored(impl.camera, *impl.square, fit.camera_from_tag);
-  const double sigma_px = corner_sigma_px(impl.camera, fit.camera_from_tag, fit.covariance, impl.target.size_m);
-  if (!other || other->reprojection_rms_px > kRuledOutSigmas * sigma_px) return std::nullopt;
+  if (!other || other->reprojection_rms_px > kRuledOutPx) return std::nullopt;
 
-  DirectParameters here{fit.camera_from_tag, fit.blur_px2, {}};
-  auto model = impl.model_with_light(luma, here, {fit.blur_px2, 0, 1, kMostPixels});
-  if (!model) return std::nullopt;
-  Impl::Fit first = impl.solve_uncovered(*model, here);
+  const DirectModel& model = impl.last->model;
+  Impl::Fit& first = impl.last->fit;
   DirectParameters there = first.at;
   there.camera_from_target = other->camera_from_tag;
-  Impl::Fit second = impl.solve(*model, there);
+  const double odds =
+      impl.log_likelihood(first.linearized.residuals, first.noise) - impl.log_likelihood(model.residuals(there), first.noise);
+  if (odds > kRuledOutLogOdds) return std::nullopt;
+  Impl::Fit second = impl.solve(model, there);
   second.kept_share = first.kept_share;
   constexpr double kSameAxis = 5e-3;  // a quarter of a degree: it came back
   const glm::dmat3 turn = second.at.camera_from_target.rotation - first.at.camera_from_target.rotation;
@@ -331,9 +356,9 @@ std::optional<DirectFit> DirectRefiner::other_pose(const LumaView& luma, DirectF
   const double noise = std::min(first.noise, second.noise);
   for (Impl::Fit* each : {&first, &second}) {
     each->noise = noise;
-    each->linearized = impl.linearize(*model, each->at, fit.blur_px2, noise);
+    each->linearized = impl.linearize(model, each->at, fit.blur_px2, noise);
   }
-  const auto first_judged = impl.judged(*model, first), second_judged = impl.judged(*model, second);
+  const auto first_judged = impl.judged(model, first), second_judged = impl.judged(model, second);
   if (!first_judged || !second_judged) return std::nullopt;
   fit = *first_judged;
   return second_judged;

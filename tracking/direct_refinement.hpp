@@ -48,8 +48,8 @@ class DirectRefiner {
   std::optional<DirectFit> refine(const LumaView& luma, const DirectStart& start);
 
   /// The other pose that a planar target allows, where the picture does not rule it out at once; log-likelihoods of both are from
-  /// the same pixels then. `fit` is what refine() gave for this frame.
-  std::optional<DirectFit> other_pose(const LumaView& luma, DirectFit& fit);
+  /// the same pixels then. `fit` is what refine() has just given.
+  std::optional<DirectFit> other_pose(DirectFit& fit);
 
  private:
   struct Impl;

@@ -82,7 +82,7 @@ struct Tracker::Impl {
     if (!fit || !is_convincing(*fit)) return std::nullopt;
     if (!(corner_sigma_px(camera, fit->camera_from_tag, fit->covariance, target.size_m) < kMostSigmaPx)) return std::nullopt;
     Measurement measurement;
-    const auto other = refiner.other_pose(luma, *fit);
+    const auto other = refiner.other_pose(*fit);
     measurement.candidates.push_back(candidate(*fit));
     if (other) measurement.candidates.push_back(candidate(*other));
     if (other && other->log_likelihood > fit->log_likelihood) std::swap(measurement.candidates[0], measurement.candidates[1]);
