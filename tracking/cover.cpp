@@ -82,9 +82,11 @@ Inverted inverted_cells(const CameraModel& camera, const ResponseTable& response
     if (from_middle.x > kMiddle || from_middle.y > kMiddle) continue;
     if (cell.x < 0 || cell.y < 0 || cell.x >= cells || cell.y >= cells) continue;
     const auto index = static_cast<std::size_t>(static_cast<int>(cell.y) * cells + static_cast<int>(cell.x));
-    sums[index] += (response.linear_of(pixel.code) - light.black) / light.gain;
+    sums[index] += pixel.code;
     counts[index] += 1;
   }
+  const double white_code = response.code(light.black + (1 - kSame) * light.gain).value;
+  const double black_code = response.code(light.black + kSame * light.gain).value;
   Inverted result;
   for (int row = 0; row < cells; ++row)
     for (int column = 0; column < cells; ++column) {
@@ -92,8 +94,8 @@ Inverted inverted_cells(const CameraModel& camera, const ResponseTable& response
       if (counts[index] == 0) continue;
       const double seen = sums[index] / counts[index];
       const auto ink = part.pattern->cell(column, row);
-      result.to_white += ink == 0.0f && seen > 1 - kSame;
-      result.to_black += ink == 1.0f && seen < kSame;
+      result.to_white += ink == 0.0f && seen > white_code;
+      result.to_black += ink == 1.0f && seen < black_code;
     }
   return result;
 }

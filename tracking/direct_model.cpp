@@ -154,11 +154,13 @@ double RobustLoss::weight(double residual) const {
   return 1 / (over * over);
 }
 
-std::vector<Residual> DirectModel::residuals(const DirectParameters& at) const {
+std::vector<Residual> DirectModel::residuals(const DirectParameters& at, std::size_t stride) const {
   std::vector<Residual> residuals;
+  std::size_t index = 0;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const PartView view(camera_, parts_[i], at);
     for (const TagPixel& pixel : parts_[i].pixels) {
+      if (index++ % stride != 0) continue;
       Residual& residual = residuals.emplace_back();
       const auto sampled = view.at(pixel.place);
       if (!sampled) continue;

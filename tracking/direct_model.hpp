@@ -70,8 +70,8 @@ class DirectModel {
 
   const std::vector<TagPart>& parts() const { return parts_; }
 
-  /// One residual a pixel, part after part.
-  std::vector<Residual> residuals(const DirectParameters& at) const;
+  /// One residual for every `stride`-th pixel, part after part.
+  std::vector<Residual> residuals(const DirectParameters& at, std::size_t stride = 1) const;
 
   struct Linearized {
     NormalEquations equations;

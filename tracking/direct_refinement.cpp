@@ -13,7 +13,7 @@ namespace catchlight::tracking {
 namespace {
 
 constexpr std::size_t kFewestPixels = 40;
-constexpr std::size_t kMostPixels = 3000, kMostCoarsePixels = 1000;
+constexpr std::size_t kMostPixels = 2400, kMostCoarsePixels = 1000;
 constexpr double kCoarseCellPx = 3;                 ///< blocks leave cells at least this large: smaller ones run together
 constexpr double kLossSigmas = 4;                   ///< the loss keeps 93 % of least squares' efficiency on Gaussian noise
 constexpr double kLeastNoiseCodes = 0.35;           ///< rounding alone leaves 0.29
@@ -22,9 +22,17 @@ constexpr double kNearPx = 0.1, kSettledPx = 0.01;  ///< Gauss-Newton's next ste
 constexpr double kBlurPrior_px2 = 2, kLightPrior = 0.3;
 /// The other planar pose is ruled out without a fit of its own where its corners are this far off, or its pixels speak this much
 /// against it.
-constexpr double kRuledOutPx = 4, kRuledOutLogOdds = 60;
+constexpr double kRuledOutPx = 2.5, kRuledOutLogOdds = 60;
 /// Residuals of neighbouring pixels go together (compression, the print's own faults): a pixel counts as this much of one.
 constexpr double kIndependence = 0.5;
+
+constexpr std::size_t kSparse = 4;  ///< every so many pixels will do for a first impression
+
+std::vector<Residual> every(const std::vector<Residual>& residuals, std::size_t stride) {
+  std::vector<Residual> some;
+  for (std::size_t i = 0; i < residuals.size(); i += stride) some.push_back(residuals[i]);
+  return some;
+}
 
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -212,15 +220,19 @@ struct DirectRefiner::Impl {
     constexpr int kMostRounds = 6;
     constexpr double kFallen = 0.9;
     const double least = kLeastNoiseCodes / response->codes_per_unit();
-    Fit fit{start, {}, robust_noise(model.residuals(start), least), 1};
+    Fit fit{start, {}, robust_noise(model.residuals(start, kSparse), least), 1};
     const auto has_slope = [](const TagLight& light) { return light.gain_u != 0 || light.gain_v != 0; };
+    fit.is_light_even = std::none_of(start.light.begin(), start.light.end(), has_slope);
+    fit.linearized = linearize(model, fit.at, start.blur_px2, fit.noise, fit.is_light_even);
     for (int round = 0; round < kMostRounds; ++round) {
-      fit.is_light_even = round == 0 && std::none_of(start.light.begin(), start.light.end(), has_slope);
-      fit.linearized = linearize(model, fit.at, start.blur_px2, fit.noise, fit.is_light_even);
       minimize(model, fit, start.blur_px2, round == 0 ? kNearPx : kSettledPx);
       const double noise = robust_noise(fit.linearized.residuals, least);
-      if (round > 0 && noise > kFallen * fit.noise) break;
+      const bool has_fallen = noise < kFallen * fit.noise;
+      if (round > 0 && !has_fallen) break;
+      if (!has_fallen && !fit.is_light_even) continue;
       fit.noise = noise;
+      fit.is_light_even = false;
+      fit.linearized = linearize(model, fit.at, start.blur_px2, fit.noise);
     }
     return fit;
   }
@@ -344,8 +356,8 @@ std::optional<DirectFit> DirectRefiner::other_pose(DirectFit& fit) {
   Impl::Fit& first = impl.last->fit;
   DirectParameters there = first.at;
   there.camera_from_target = other->camera_from_tag;
-  const double odds =
-      impl.log_likelihood(first.linearized.residuals, first.noise) - impl.log_likelihood(model.residuals(there), first.noise);
+  const double odds = kSparse * (impl.log_likelihood(every(first.linearized.residuals, kSparse), first.noise) -
+                                 impl.log_likelihood(model.residuals(there, kSparse), first.noise));
   if (odds > kRuledOutLogOdds) return std::nullopt;
   Impl::Fit second = impl.solve(model, there);
   second.kept_share = first.kept_share;

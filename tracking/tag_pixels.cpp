@@ -8,13 +8,13 @@
 namespace catchlight::tracking {
 namespace {
 
-constexpr double kEdgeReachSigmas = 3;   ///< farther from an edge, a pixel says nothing about its place
-constexpr double kPlateauShare = 0.125;  ///< of the plateaus' pixels, for the levels of white and black
+constexpr double kEdgeReachSigmas = 2.3;  ///< farther from an edge, a pixel says hardly anything about its place
+constexpr double kPlateauShare = 0.125;   ///< of the plateaus' pixels, for the levels of white and black
 /// Distance to the end of what is known of the print, where the paper may have been cut.
 constexpr double kClearanceCells = 0.3, kClearanceSigmas = 2.5;
 
 constexpr double kGolden = 0.6180339887498949;  ///< shifts each row's start, so that no two look at the same columns
-constexpr double kCandidates = 4;               ///< pixels looked at for each one wanted; many are on plateaus
+constexpr double kCandidates = 8;               ///< pixels looked at for each one wanted; many are on plateaus
 
 double fraction(double x) {
   return x - std::floor(x);
@@ -23,6 +23,11 @@ double fraction(double x) {
 /// Evenly spread over the plane without a grid's preference for directions (Roberts' R2 sequence); the same for every frame.
 double even_hash(int x, int y) {
   return fraction(0.7548776662466927 * x + 0.5698402909980532 * y);
+}
+
+/// A second one, independent of the first (Kronecker's sequence of square roots).
+double other_hash(int x, int y) {
+  return fraction(0.4142135623730951 * x + 0.7320508075688772 * y);
 }
 
 /// Half-open rectangle of pixels around the print as seen.
@@ -56,17 +61,30 @@ double block_code(const LumaView& luma, const ResponseTable& response, int x, in
   return response.code(sum / (block * block)).value;
 }
 
-/// Whether a pixel's light is all of known cells, and worth looking at.
-bool is_wanted(const TagPattern& pattern, const PlanePoint& point, const PixelChoice& choice, double plateau_hash) {
+/// How far around a pixel its light and the pose's error reach, in cells.
+struct Reach {
+  glm::dvec2 edge;       ///< in which an edge makes the pixel worth looking at
+  glm::dvec2 clearance;  ///< that has to be known
+};
+
+Reach reach_at(const PlanePoint& point, const PixelChoice& choice) {
   const Covariance2 blur = in_cells(choice.blur_px2, point.cell_per_px), slack = in_cells({1, 0, 1}, point.cell_per_px);
   const glm::dvec2 sigma(std::sqrt(blur.xx), std::sqrt(blur.yy));
   const glm::dvec2 slack_cells = choice.slack_px * glm::dvec2(std::sqrt(slack.xx), std::sqrt(slack.yy));
+  return {kEdgeReachSigmas * sigma + slack_cells, glm::max(kClearanceSigmas * sigma, glm::dvec2(kClearanceCells)) + slack_cells};
+}
+
+bool is_near(const TagPattern& pattern, const glm::dvec2& cell) {
+  const double first = -pattern.margin(), last = pattern.cells_across() + pattern.margin();
+  return cell.x > first && cell.y > first && cell.x < last && cell.y < last;
+}
+
+/// Whether a pixel's light is all of known cells, and worth looking at.
+bool is_wanted(const TagPattern& pattern, const glm::dvec2& cell, const Reach& reach, double plateau_hash) {
   const double end = pattern.cells_across() / 2.0 + pattern.margin();
-  const glm::dvec2 to_end = end - glm::abs(point.cell - pattern.cells_across() / 2.0);
-  if (glm::any(glm::lessThan(to_end, glm::max(kClearanceSigmas * sigma, glm::dvec2(kClearanceCells)) + slack_cells)))
-    return false;
-  const glm::dvec2 reach = kEdgeReachSigmas * sigma + slack_cells;
-  switch (pattern.around(point.cell, reach)) {
+  const glm::dvec2 to_end = end - glm::abs(cell - pattern.cells_across() / 2.0);
+  if (glm::any(glm::lessThan(to_end, reach.clearance))) return false;
+  switch (pattern.around(cell, reach.edge)) {
     case TagPattern::Neighbourhood::unknown:
       return false;
     case TagPattern::Neighbourhood::plateau:
@@ -77,11 +95,9 @@ bool is_wanted(const TagPattern& pattern, const PlanePoint& point, const PixelCh
   return false;
 }
 
-void thin_out(std::vector<TagPixel>& pixels, std::size_t most) {
-  if (pixels.size() <= most) return;
-  const double step = static_cast<double>(pixels.size()) / static_cast<double>(most);
-  for (std::size_t i = 0; i < most; ++i) pixels[i] = pixels[static_cast<std::size_t>(static_cast<double>(i) * step)];
-  pixels.resize(most);
+/// Rounded down to a few steps, so that a tag that hardly moves keeps its pixels.
+double stepped_share(double share) {
+  return share >= 1 ? 1 : std::exp2(std::floor(8 * std::log2(share)) / 8);
 }
 
 }  // namespace
@@ -92,20 +108,33 @@ std::vector<TagPixel> choose_pixels(const LumaView& luma, const CameraModel& cam
   const int block = choice.block_px;
   const PixelRect region = print_region(camera, pattern, view);
   const double blocks = static_cast<double>(region.width) * region.height / (block * block);
-  const double stride = std::max(1.0, blocks / (kCandidates * static_cast<double>(choice.most)));
-  std::vector<TagPixel> pixels;
-  pixels.reserve(choice.most);
-  const int columns = region.width / block, rows = region.height / block;
-  for (int row = 0; row < rows; ++row)
-    for (double at = stride * fraction(kGolden * row); at < columns; at += stride) {
-      const int column = static_cast<int>(at), x = region.x + column * block, y = region.y + row * block;
+  const double stride = 1 / stepped_share(kCandidates * static_cast<double>(choice.most) / std::max(blocks, 1.0));
+  struct Candidate {
+    TagPixel pixel;
+    double hash;
+  };
+  std::vector<Candidate> candidates;
+  const auto last_column = (region.x + region.width) / block, last_row = (region.y + region.height) / block;
+  for (int row = (region.y + block - 1) / block; row < last_row; ++row) {
+    std::optional<Reach> reach;  // hardly changes along a row
+    // Counted from the picture's edge, not the tag's.
+    const double phase = fraction(kGolden * row), first = std::ceil((region.x + block - 1) / block / stride - phase);
+    for (double at = stride * (std::max(first, 0.0) + phase); at < last_column; at += stride) {
+      const int column = static_cast<int>(at), x = column * block, y = row * block;
       const double to_center = (block - 1) / 2.0;
       const auto place = block == 1 ? ideal_pixels.at(x, y) : ideal_pixel(camera, {x + to_center, y + to_center});
-      const auto point = place ? view.at(place->ideal_px) : std::nullopt;
-      if (!point || !is_wanted(pattern, *point, choice, even_hash(column, row))) continue;
-      pixels.push_back({*place, block_code(luma, response, x, y, block)});
+      const auto cell = place ? view.cell_at(place->ideal_px) : std::nullopt;
+      if (!cell || !is_near(pattern, *cell)) continue;
+      if (!reach) reach = reach_at(*view.at(place->ideal_px), choice);
+      if (is_wanted(pattern, *cell, *reach, even_hash(column, row)))
+        candidates.push_back({{*place, block_code(luma, response, x, y, block)}, other_hash(column, row)});
     }
-  thin_out(pixels, choice.most);
+  }
+  const double share =
+      stepped_share(static_cast<double>(choice.most) / static_cast<double>(std::max<std::size_t>(candidates.size(), 1)));
+  std::vector<TagPixel> pixels;
+  for (const Candidate& candidate : candidates)
+    if (candidate.hash < share) pixels.push_back(candidate.pixel);
   return pixels;
 }
 

@@ -31,6 +31,12 @@ std::optional<PlanePoint> TagView::at(const glm::dvec2& ideal_px) const {
   return point;
 }
 
+std::optional<glm::dvec2> TagView::cell_at(const glm::dvec2& ideal_px) const {
+  const glm::dvec3 plane = plane_from_slopes_ * glm::dvec3((ideal_px - center_px_) / focal_px_, 1);
+  if (!(plane.z > 0)) return std::nullopt;
+  return glm::dvec2(plane.x / plane.z + half_size_m_, half_size_m_ - plane.y / plane.z) / cell_m_;
+}
+
 std::optional<glm::dvec2> TagView::ideal_px(const glm::dvec2& cell) const {
   const glm::dvec3 on_tag_m(cell.x * cell_m_ - half_size_m_, half_size_m_ - cell.y * cell_m_, 0);
   const glm::dvec3 point_m = camera_from_tag_ * on_tag_m;

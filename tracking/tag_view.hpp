@@ -22,6 +22,9 @@ class TagView {
   /// Empty where the pixel's ray does not meet the plane in front of the camera.
   std::optional<PlanePoint> at(const glm::dvec2& ideal_px) const;
 
+  /// The cell coordinate alone.
+  std::optional<glm::dvec2> cell_at(const glm::dvec2& ideal_px) const;
+
   /// Where a cell coordinate is seen, without distortion; empty behind the camera.
   std::optional<glm::dvec2> ideal_px(const glm::dvec2& cell) const;
 
