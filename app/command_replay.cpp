@@ -23,18 +23,22 @@ void print_header() {
               "mask mean p95 PSNR SSIM", "shadow", "elsewhere", "verdict");
 }
 
-void print_pictures(const PictureError& error) {
+/// Dashes where the recording has no truth to look at.
+void print_pictures(const std::optional<TruthComparison>& pictures, PictureError TruthComparison::*region) {
+  if (!pictures) {
+    std::printf(" | %5s %5s %5s %6s ", "-", "-", "-", "-");
+    return;
+  }
+  const PictureError& error = (*pictures).*region;
   std::printf(" | %5.2f %5.2f %5.1f %6.4f ", error.mean, error.p95, error.psnr_db, error.ssim);
 }
 
 void print_row(const ReplayResult& result, const char* verdict) {
   const PoseComparison pose = result.pose.value_or(PoseComparison{});
-  const TruthComparison pictures = result.pictures.value_or(TruthComparison{});
   std::printf("%-10s %4d/%-3d %7.3f %7.3f %7.3f %7.3f", result.name.c_str(), pose.tracked, pose.frames, pose.corner_rms_px,
               pose.corner_p95_px, pose.translation_median_mm, pose.rotation_median_deg);
-  print_pictures(pictures.mask);
-  print_pictures(pictures.shadow);
-  print_pictures(pictures.elsewhere);
+  for (const auto region : {&TruthComparison::mask, &TruthComparison::shadow, &TruthComparison::elsewhere})
+    print_pictures(result.pictures, region);
   std::printf(" | %s\n", verdict);
 }
 

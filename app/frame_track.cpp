@@ -24,7 +24,7 @@ class ExposureTrack {
   /// it was measured.
   bool add_exposure(const Frame& frame, TrackRow& row) {
     std::optional<tracking::TagPhotometry> photometry;
-    if (row.state == tracking::TrackState::tracking) photometry = measure(frame, row.camera_from_tag);
+    if (row.state == tracking::TrackState::tracking) photometry = measure(frame, row);
     const TagExposure exposure = matcher_.update(photometry);
     row.has_exposure = true;
     row.exposure = exposure.white;
@@ -33,11 +33,18 @@ class ExposureTrack {
   }
 
  private:
-  std::optional<tracking::TagPhotometry> measure(const Frame& frame, const RigidTransform& camera_from_tag) const {
-    const PixelRect region = tracking::photometry_region(camera_, camera_from_tag, target_);
-    if (region.empty()) return {};
-    const std::vector<float> linear = linear_rgb(frame, region);
-    return tracking::measure_photometry({region, linear}, camera_, camera_from_tag, target_);
+  /// By the first tag of a board that can be read.
+  std::optional<tracking::TagPhotometry> measure(const Frame& frame, const TrackRow& row) const {
+    const std::optional<tracking::Covariance2> blur_px2 = row.noise_codes > 0 ? std::optional(row.blur_px2) : std::nullopt;
+    for (const tracking::BundledTag& tag : target_.tags()) {
+      const RigidTransform camera_from_tag = row.camera_from_tag * tag.tag_from_this;
+      const tracking::TagTarget alone{tag, {}};
+      const PixelRect region = tracking::photometry_region(camera_, camera_from_tag, alone);
+      if (region.empty()) continue;
+      const std::vector<float> linear = linear_rgb(frame, region);
+      if (auto seen = tracking::measure_photometry({region, linear}, camera_, camera_from_tag, alone, blur_px2)) return seen;
+    }
+    return std::nullopt;
   }
 
   CameraModel camera_;
@@ -171,6 +178,7 @@ void PathTrack::add(const Frame& frame) {
   const tracking::TagObservation& seen = impl_->path.add(frame.luma(), frame.time_s());
   TrackRow row = row_of(frame);
   set_pose(row, seen.state, seen.camera_from_tag, impl_->camera, impl_->target);
+  set_appearance(row, seen.appearance);
   impl_->measured.push_back(impl_->exposure.add_exposure(frame, row));
   impl_->rows.push_back(row);
 }

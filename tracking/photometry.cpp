@@ -4,7 +4,10 @@
 #include <vector>
 
 #include "tracking/families.hpp"
+#include "tracking/ideal_pixels.hpp"
 #include "tracking/lens.hpp"
+#include "tracking/tag_pattern.hpp"
+#include "tracking/tag_view.hpp"
 
 namespace catchlight::tracking {
 namespace {
@@ -102,8 +105,48 @@ PixelRect photometry_region(const CameraModel& camera, const RigidTransform& cam
   return region.empty() ? PixelRect{} : region;
 }
 
+namespace {
+
+/// Least squares of every channel on the share of white, over the whole print.
+std::optional<TagPhotometry> unmixed_photometry(const LinearPatch& patch, const CameraModel& camera,
+                                                const RigidTransform& camera_from_tag, const TagTarget& target,
+                                                const TagLayout& layout, const Covariance2& blur_px2) {
+  constexpr double kLeastSpread = 0.02;  // variance of the share of white: less leaves nothing to tell them apart by
+  const TagView view(camera, camera_from_tag, target.size_m, layout.cells_across);
+  const TagPattern pattern(layout);
+  TagPhotometry photometry;
+  double n = 0, w = 0, ww = 0, clipped = 0, light = 0;
+  glm::dvec3 l(0.0), wl(0.0);
+  for (int row = 0; row < patch.rect.height; ++row)
+    for (int column = 0; column < patch.rect.width; ++column) {
+      const auto place = ideal_pixel(camera, {patch.rect.x + column, patch.rect.y + row});
+      const auto point = place ? view.at(place->ideal_px) : std::nullopt;
+      if (!point || point->cell.x < 0 || point->cell.y < 0) continue;
+      if (point->cell.x > layout.cells_across || point->cell.y > layout.cells_across) continue;
+      const PatternSample sample = pattern.sample(point->cell, in_cells(blur_px2, point->cell_per_px * place->ideal_per_seen));
+      if (!sample.known) continue;
+      const float* rgb = &patch.rgb[3 * (static_cast<std::size_t>(row) * patch.rect.width + static_cast<std::size_t>(column))];
+      const glm::dvec3 linear(rgb[0], rgb[1], rgb[2]);
+      light += sample.white > 0.5;
+      clipped += sample.white > 0.5 && std::max({rgb[0], rgb[1], rgb[2]}) >= kClippedLinear;
+      n += 1, w += sample.white, ww += sample.white * sample.white;
+      l += linear, wl += sample.white * linear;
+    }
+  const double spread = n * ww - w * w;
+  if (!(spread > kLeastSpread * n * n) || clipped > kClippedShare * light) return std::nullopt;
+  const glm::dvec3 gain = (n * wl - w * l) / spread;
+  photometry.black_linear = glm::max((l - gain * w) / n, glm::dvec3(0.0));
+  photometry.white_linear = photometry.black_linear + gain;
+  photometry.white_pixels = static_cast<int>(light);
+  photometry.black_pixels = static_cast<int>(n - light);
+  return glm::dot(gain, kLuminanceWeights) > 0 ? std::optional(photometry) : std::nullopt;
+}
+
+}  // namespace
+
 std::optional<TagPhotometry> measure_photometry(const LinearPatch& patch, const CameraModel& camera,
-                                                const RigidTransform& camera_from_tag, const TagTarget& target) {
+                                                const RigidTransform& camera_from_tag, const TagTarget& target,
+                                                const std::optional<Covariance2>& blur_px2) {
   const TagLayout layout = tag_layout(target.family, target.id);
   const CellGrid grid = cell_grid(camera, camera_from_tag, target, layout);
   std::vector<CellMean> white, black;
@@ -121,7 +164,8 @@ std::optional<TagPhotometry> measure_photometry(const LinearPatch& patch, const 
     }
   // Fewer than a ring's worth of either would let a single stain decide.
   constexpr std::size_t kFewestCells = 8;
-  if (white.size() < kFewestCells || black.size() < kFewestCells) return std::nullopt;
+  if (white.size() < kFewestCells || black.size() < kFewestCells)
+    return blur_px2 ? unmixed_photometry(patch, camera, camera_from_tag, target, layout, *blur_px2) : std::nullopt;
   if (clipped_white > kClippedShare * photometry.white_pixels) return std::nullopt;
   photometry.white_linear = trimmed_mean(white);
   photometry.black_linear = trimmed_mean(black);

@@ -15,7 +15,7 @@ struct LinearPatch {
   std::span<const float> rgb;
 };
 
-/// Mean linear RGB of the interior of white and black cells, away from edges that the lens blurs.
+/// Linear RGB of the print's white and black, free of what the lens blurs into each other.
 struct TagPhotometry {
   glm::dvec3 white_linear{0.0};
   glm::dvec3 black_linear{0.0};
@@ -25,8 +25,11 @@ struct TagPhotometry {
 /// The pixels that measure_photometry() wants to see.
 PixelRect photometry_region(const CameraModel& camera, const RigidTransform& camera_from_tag, const TagTarget& target);
 
-/// Empty where the tag is too small, or too much of its white is clipped in any channel, to be trusted.
+/// From the middles of the cells. Where these are too small, and the blur is known (direct refinement tells it), from all pixels
+/// of the tag: each is so much white and so much black by the model of tag_pattern.hpp. Empty where neither can be done, or
+/// too much of the white is clipped in any channel, to be trusted.
 std::optional<TagPhotometry> measure_photometry(const LinearPatch& patch, const CameraModel& camera,
-                                                const RigidTransform& camera_from_tag, const TagTarget& target);
+                                                const RigidTransform& camera_from_tag, const TagTarget& target,
+                                                const std::optional<Covariance2>& blur_px2 = {});
 
 }  // namespace catchlight::tracking

@@ -8,8 +8,9 @@
 namespace catchlight::tracking {
 namespace {
 
-constexpr double kEdgeReachSigmas = 2.3;  ///< farther from an edge, a pixel says hardly anything about its place
-constexpr double kPlateauShare = 0.125;   ///< of the plateaus' pixels, for the levels of white and black
+/// Farther from an edge, a pixel says nothing about its place; hardly anything beyond the second, where there are plenty.
+constexpr double kEdgeReachSigmas = 3, kShortReachSigmas = 2.3;
+constexpr double kPlateauShare = 0.125;  ///< of the plateaus' pixels, for the levels of white and black
 /// Distance to the end of what is known of the print, where the paper may have been cut.
 constexpr double kClearanceCells = 0.3, kClearanceSigmas = 2.5;
 
@@ -67,11 +68,12 @@ struct Reach {
   glm::dvec2 clearance;  ///< that has to be known
 };
 
-Reach reach_at(const PlanePoint& point, const PixelChoice& choice) {
+Reach reach_at(const PlanePoint& point, const PixelChoice& choice, bool has_plenty) {
   const Covariance2 blur = in_cells(choice.blur_px2, point.cell_per_px), slack = in_cells({1, 0, 1}, point.cell_per_px);
   const glm::dvec2 sigma(std::sqrt(blur.xx), std::sqrt(blur.yy));
   const glm::dvec2 slack_cells = choice.slack_px * glm::dvec2(std::sqrt(slack.xx), std::sqrt(slack.yy));
-  return {kEdgeReachSigmas * sigma + slack_cells, glm::max(kClearanceSigmas * sigma, glm::dvec2(kClearanceCells)) + slack_cells};
+  return {(has_plenty ? kShortReachSigmas : kEdgeReachSigmas) * sigma + slack_cells,
+          glm::max(kClearanceSigmas * sigma, glm::dvec2(kClearanceCells)) + slack_cells};
 }
 
 bool is_near(const TagPattern& pattern, const glm::dvec2& cell) {
@@ -125,7 +127,7 @@ std::vector<TagPixel> choose_pixels(const LumaView& luma, const CameraModel& cam
       const auto place = block == 1 ? ideal_pixels.at(x, y) : ideal_pixel(camera, {x + to_center, y + to_center});
       const auto cell = place ? view.cell_at(place->ideal_px) : std::nullopt;
       if (!cell || !is_near(pattern, *cell)) continue;
-      if (!reach) reach = reach_at(*view.at(place->ideal_px), choice);
+      if (!reach) reach = reach_at(*view.at(place->ideal_px), choice, blocks > 2 * static_cast<double>(choice.most));
       if (is_wanted(pattern, *cell, *reach, even_hash(column, row)))
         candidates.push_back({{*place, block_code(luma, response, x, y, block)}, other_hash(column, row)});
     }

@@ -92,6 +92,21 @@ TEST(Photometry, ATagWithCellsOfTwoPixelsIsTooSmall) {
   EXPECT_FALSE(measure(scene, patch_of(scene, render(scene))));
 }
 
+TEST(Photometry, WithTheBlurKnownEvenCellsOfTwoPixelsAreUnmixed) {
+  const glm::vec3 tint(0.9f, 1.0f, 0.6f);
+  SyntheticScene scene = one_tag(2.4);
+  ASSERT_FALSE(measure(scene, patch_of(scene, render(scene), tint)));
+  const double blur_px2 = scene.blur_px * scene.blur_px + 1.0 / 12;
+  const Patch patch = patch_of(scene, render(scene), tint);
+  const auto unmixed = measure_photometry(patch.view(), scene.camera, scene.tags[0].camera_from_tag, scene.tags[0].target,
+                                          Covariance2{blur_px2, 0, blur_px2});
+  ASSERT_TRUE(unmixed);
+  for (int channel = 0; channel < 3; ++channel) {
+    EXPECT_NEAR(unmixed->white_linear[channel], scene.white_linear * tint[channel], 0.02 * scene.white_linear);
+    EXPECT_NEAR(unmixed->black_linear[channel], scene.black_linear * tint[channel], 0.02 * scene.white_linear);
+  }
+}
+
 TEST(Photometry, ATagHalfOutOfTheFrameIsMeasuredByWhatIsSeen) {
   SyntheticScene scene = one_tag(0.35);
   scene.tags[0].camera_from_tag = tag_pose(scene.camera, {5, 240}, 0.35, {0, 0, 0});
