@@ -93,15 +93,18 @@ struct Tracker::Impl {
   }
 
   /// From corners that only the detector has seen, either planar pose may be the right one: the one that explains more is kept.
+  /// One that has to call part of the tag covered explains less, however little noise it leaves elsewhere.
   std::optional<Measurement> refined_from_both(const LumaView& luma, const std::vector<PoseHypothesis>& poses,
                                                const RigidTransform& this_from_tag) {
+    constexpr double kCovered = 0.1;
     std::optional<Measurement> best;
-    double least_noise = 0;
+    const auto is_better = [](const TagAppearance& a, const TagAppearance& b) {
+      if (std::abs(a.covered_share - b.covered_share) > kCovered) return a.covered_share < b.covered_share;
+      return a.noise_codes < b.noise_codes;
+    };
     for (const PoseHypothesis& pose : poses) {
       auto fit = refined(luma, pose.camera_from_tag * this_from_tag, kDetectedErrorPx);
-      if (!fit || (best && fit->appearance->noise_codes >= least_noise)) continue;
-      least_noise = fit->appearance->noise_codes;
-      best = std::move(fit);
+      if (fit && (!best || is_better(*fit->appearance, *best->appearance))) best = std::move(fit);
     }
     return best;
   }

@@ -74,6 +74,20 @@ TEST_P(OfSize, CornersAreWithinTwelveThousandthsOfAPixelUnderNoise) {
 
 INSTANTIATE_TEST_SUITE_P(DirectRefinement, OfSize, ::testing::Values(40, 80, 160));
 
+class FitsFamily : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(FitsFamily, ToAFiftiethOfAPixel) {
+  SyntheticScene scene = scene_of(90, {30, -15, 25}, 2);
+  scene.tags[0].target = {{GetParam(), 3, 0.08}, {}};
+  const auto found = fit(scene, render(scene));
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(is_convincing(*found));
+  EXPECT_LT(corner_error_px(scene, *found), 0.02);
+}
+
+INSTANTIATE_TEST_SUITE_P(Library, FitsFamily, ::testing::ValuesIn(tag_families()),
+                         [](const auto& family) { return family.param; });
+
 TEST(DirectRefinement, WithoutNoiseWhatIsLeftIsTheRoundingOfCodes) {
   for (const glm::dvec3& turn_deg :
        {glm::dvec3(35, 10, 20), glm::dvec3(-50, 25, -100), glm::dvec3(0, 0, 0), glm::dvec3(60, 0, 45)}) {
