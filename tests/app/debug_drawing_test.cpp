@@ -261,7 +261,7 @@ TEST(DebugDrawing, LostFrameShowsItsTextAndNothingElse) {
 
 TEST(DebugDrawing, TextTellsFrameStateResidualAndAmbiguity) {
   const Frame frame = gray_frame();
-  const auto text = [&](const TrackRow& row) { return drawn(frame, row, distorting_camera())(cv::Rect(0, 0, 400, 60)).clone(); };
+  const auto text = [&](const TrackRow& row) { return drawn(frame, row, distorting_camera())(cv::Rect(0, 0, 600, 60)).clone(); };
   const TrackRow row = tracked(tilted());
   TrackRow other_frame = row, coasting = row, other_residual = row, other_ambiguity = row;
   other_frame.frame = 8;
