@@ -13,7 +13,7 @@ namespace catchlight::tracking {
 namespace {
 
 constexpr std::size_t kFewestPixels = 40;
-constexpr std::size_t kMostPixels = 2400, kMostCoarsePixels = 1000;
+constexpr std::size_t kMostPixels = 2200, kMostCoarsePixels = 1000;
 constexpr double kCoarseCellPx = 3;                 ///< blocks leave cells at least this large: smaller ones run together
 constexpr double kLossSigmas = 4;                   ///< the loss keeps 93 % of least squares' efficiency on Gaussian noise
 constexpr double kLeastNoiseCodes = 0.35;           ///< rounding alone leaves 0.29

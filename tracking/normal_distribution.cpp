@@ -11,17 +11,15 @@ namespace {
 constexpr double kReach = 6, kStep = 1.0 / 64;
 constexpr int kNodes = static_cast<int>(2 * kReach / kStep) + 1;
 
-const std::array<Normal, kNodes>& table() {
-  static const std::array<Normal, kNodes> nodes = [] {
-    std::array<Normal, kNodes> made;
-    for (int i = 0; i < kNodes; ++i) {
-      const double x = -kReach + i * kStep;
-      made[i] = {std::exp(-x * x / 2) / std::sqrt(2 * std::numbers::pi), std::erfc(-x / std::numbers::sqrt2) / 2};
-    }
-    return made;
-  }();
-  return nodes;
-}
+const std::array<Normal, kNodes> kTable = [] {
+  std::array<Normal, kNodes> made;
+  for (int i = 0; i < kNodes; ++i) {
+    const double x = -kReach + i * kStep;
+    made[static_cast<std::size_t>(i)] = {std::exp(-x * x / 2) / std::sqrt(2 * std::numbers::pi),
+                                         std::erfc(-x / std::numbers::sqrt2) / 2};
+  }
+  return made;
+}();
 
 /// Gauss-Legendre nodes on [-1, 1]; the negative twins are implied.
 struct GaussNode {
@@ -64,10 +62,9 @@ double plackett_integral(double a, double b, double rho) {
 Normal normal(double x) {
   if (!(x > -kReach)) return {0, 0};
   if (!(x < kReach)) return {0, 1};
-  static const std::array<Normal, kNodes>& nodes = table();
   const int i = static_cast<int>((x + kReach) / kStep + 0.5);
   const double at = i * kStep - kReach, d = x - at;
-  const Normal& node = nodes[static_cast<std::size_t>(i)];
+  const Normal& node = kTable[static_cast<std::size_t>(i)];
   return {node.density * (1 - d * at + d * d / 2 * (at * at - 1)), node.cumulative + node.density * d * (1 - d * at / 2)};
 }
 

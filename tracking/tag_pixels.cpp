@@ -15,7 +15,7 @@ constexpr double kPlateauShare = 0.125;  ///< of the plateaus' pixels, for the l
 constexpr double kClearanceCells = 0.3, kClearanceSigmas = 2.5;
 
 constexpr double kGolden = 0.6180339887498949;  ///< shifts each row's start, so that no two look at the same columns
-constexpr double kCandidates = 8;               ///< pixels looked at for each one wanted; many are on plateaus
+constexpr double kCandidates = 5;               ///< pixels looked at for each one wanted; many are on plateaus
 
 double fraction(double x) {
   return x - std::floor(x);
