@@ -1,4 +1,5 @@
 #include "app/parameters.hpp"
+#include "render/compositor.hpp"
 #include "render/sh.hpp"
 #include "tracking/tracker.hpp"
 
@@ -107,8 +108,12 @@ std::vector<Parameter> make_table() {
        IntegerKind{[](Scene& s) -> int& { return s.quality.bands; }, 1, render::kMaxShBands}},
       {"quality.rays", "", "Rays per vertex in the transfer bake.",
        IntegerKind{[](Scene& s) -> int& { return s.quality.rays; }, 16, 65536}},
-      {"quality.bounces", "", "Interreflections within the object.",
-       IntegerKind{[](Scene& s) -> int& { return s.quality.bounces; }, 0, 8}},
+      {"quality.bounces", "",
+       "Most interreflections within the object, and between it and the receiver; they end where they stop mattering.",
+       IntegerKind{[](Scene& s) -> int& { return s.quality.bounces; }, 0, 16}},
+      {"quality.light_samples", "",
+       "Most shadow maps for the lights that are split off the probe, a sample of a light each; 0: none is split off.",
+       IntegerKind{[](Scene& s) -> int& { return s.quality.light_samples; }, 0, render::kMaxLightSamples}},
       {"quality.samples", "", "Samples per pixel on the object's edges.",
        IntegerKind{[](Scene& s) -> int& { return s.quality.samples; }, 1, 16}},
       {"quality.reflection_rays", "",

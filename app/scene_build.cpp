@@ -7,6 +7,7 @@
 
 #include "app/text.hpp"
 #include "render/prefilter.hpp"
+#include "render/probe_split.hpp"
 #include "render/sh.hpp"
 
 namespace catchlight::app {
@@ -88,6 +89,25 @@ int choose_bands(const SceneSettings& settings, std::size_t vertices, std::vecto
   return bands;
 }
 
+/// By hand, or as the probe saw it. A probe that turns with the camera shows another surface than the tag's in most frames.
+render::ReceiverAlbedo choose_receiver_albedo(BuiltScene& built, const SceneSettings& settings) {
+  std::optional<render::ReceiverAlbedo> seen;
+  const bool by_hand = settings.is_by_hand("receiver.albedo");
+  if (!by_hand && !built.light_follows_camera)
+    seen = render::albedo_from_probe(built.probe, built.light_from_probe, built.scene.probe_in_tag_m);
+  if (seen) {
+    built.plan.push_back({"receiver albedo", "seen", "the probe shows the receiver"});
+    return *seen;
+  }
+  if (by_hand || built.light_follows_camera) {
+    built.plan.push_back({"receiver albedo", "constant", origin_of(settings, "receiver.albedo")});
+    return render::constant_albedo(settings.receiver.albedo);
+  }
+  built.plan.push_back(
+      {"receiver albedo", "none", "more light comes from below than the receiver can send back: it counts as sky"});
+  return {};
+}
+
 void bake(BuiltScene& built, const SceneSettings& settings, const WarningHandler& warn, const ProgressHandler& progress) {
   const render::Mesh& mesh = built.scene.mesh;
   render::TransferOptions options;
@@ -97,6 +117,7 @@ void bake(BuiltScene& built, const SceneSettings& settings, const WarningHandler
   const bool has_receiver = settings.receiver.plane == "tag";
   const render::ReceiverGrid grid =
       has_receiver ? render::receiver_grid_for(mesh, settings.quality.receiver_points) : render::ReceiverGrid{};
+  if (has_receiver) options.receiver_albedo = choose_receiver_albedo(built, settings);
   built.transfer_key = render::transfer_key(mesh, grid, options);
   built.scene.transfer = render::load_or_bake_transfer(mesh, grid, options, render::default_cache_folder(), progress, warn,
                                                        &built.transfer_was_cached);
@@ -104,6 +125,19 @@ void bake(BuiltScene& built, const SceneSettings& settings, const WarningHandler
   built.plan.push_back({"shadow",
                         has_receiver ? std::to_string(grid.columns) + "x" + std::to_string(grid.rows) + " points" : "none",
                         has_receiver ? "the object's reach on the tag's plane" : "receiver.plane is \"none\""});
+}
+
+void split_off_lights(BuiltScene& built, const SceneSettings& settings) {
+  const render::SplitProbe split =
+      render::split_lights(built.probe, {built.scene.transfer.bands, settings.quality.tolerance, settings.quality.light_samples});
+  built.scene.lights = render::samples_of(split, built.light_from_probe);
+  if (!built.scene.lights.empty())
+    built.scene.rest_reflections = render::prefilter_reflections(split.rest, built.light_from_probe);
+  const std::string why = split.lights.empty() ? "nothing in the probe throws a shadow that its bands cannot hold"
+                                               : "far brighter than the rest, and sharper than its bands";
+  built.plan.push_back({"lights", std::to_string(split.lights.size()), settings.quality.light_samples > 0 ? why : "set by hand"});
+  built.plan.push_back(
+      {"light samples", std::to_string(built.scene.lights.size()), origin_of(settings, "quality.light_samples")});
 }
 
 /// By exact summation over the probe's texels, on the plane with normal tag +z.
@@ -130,10 +164,11 @@ BuiltScene build_render_scene(const SceneSettings& settings, const WarningHandle
   built.light_from_probe = light_from_probe(settings.probe);
   built.light_follows_camera = settings.probe.fixed_to == "camera";
   built.scene.mesh = build_mesh(settings, warn);
+  built.scene.probe_in_tag_m = glm::vec3(0, 0, half_height_m(built.scene.mesh));
   bake(built, settings, warn, progress);
   built.scene.light = render::rotate_sh(render::project_to_sh(built.probe, built.scene.transfer.bands), built.light_from_probe);
   built.scene.reflections = render::prefilter_reflections(built.probe, built.light_from_probe);
-  built.scene.probe_in_tag_m = glm::vec3(0, 0, half_height_m(built.scene.mesh));
+  split_off_lights(built, settings);
   if (!built.light_follows_camera) built.still_irradiance_over_pi = irradiance_over_pi(built, glm::dmat3(1.0));
   return built;
 }

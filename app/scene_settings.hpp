@@ -81,7 +81,8 @@ struct SceneSettings {
     double tolerance = 0.004;
     int bands = 10;
     int rays = 1024;
-    int bounces = 2;
+    int bounces = 8;
+    int light_samples = 96;
     int samples = 4;
     int reflection_rays = 16;
     int receiver_points = 96;

@@ -14,6 +14,7 @@
 #include "render/pass_clock.hpp"
 #include "render/receiver_pass.hpp"
 #include "render/scene_check.hpp"
+#include "render/shadowed_lights.hpp"
 
 namespace catchlight::render {
 namespace {
@@ -34,6 +35,23 @@ Box bounding_box(const Mesh& mesh) {
     box.max_m = glm::max(box.max_m, p);
   }
   return box;
+}
+
+BoundingSphere sphere_around(const Box& box) {
+  if (box.min_m.x > box.max_m.x) return {glm::vec3(0), 1.0f};
+  return {glm::vec3(box.min_m + box.max_m) * 0.5f, static_cast<float>(0.5 * glm::distance(box.min_m, box.max_m))};
+}
+
+TagLight light_of(const RenderScene& scene) {
+  TagLight light{scene.light, {}, scene.lights};
+  if (!scene.lights.empty()) light.split_off = project_to_sh(scene.lights, scene.transfer.bands);
+  return light;
+}
+
+TagLight turned(const TagLight& light, const glm::dmat3& rotation) {
+  TagLight result{rotate_sh(light.whole, rotation), rotate_sh(light.split_off, rotation), light.samples};
+  for (LightSample& sample : result.samples) sample.direction = rotation * sample.direction;
+  return result;
 }
 
 int supported_samples(int wanted) {
@@ -57,12 +75,12 @@ struct Compositor::Impl {
   bool draw_virtual_layer(const FrameView& view, const PixelRect& rect);
 
   CompositorSettings settings;
-  ShRgb light_probe;
+  TagLight light_probe;  ///< as the probe's frame has it
   glm::vec3 probe_in_tag_m;
   Box box;
-  ReceiverGrid grid;
   PassClock clock;
   LightTransfer light;
+  ShadowedLights lights;
   ObjectPass object;
   std::unique_ptr<ReceiverPass> receiver;
   GlarePass glare;
@@ -76,27 +94,29 @@ struct Compositor::Impl {
 
 Compositor::Impl::Impl(const RenderScene& scene, const CompositorSettings& wanted)
     : settings(wanted),
-      light_probe(checked(scene).light),
+      light_probe(light_of(checked(scene))),
       probe_in_tag_m(scene.probe_in_tag_m),
       box(bounding_box(scene.mesh)),
-      grid(scene.transfer.grid),
       light(wanted.shader_folder),
-      object(scene.mesh, LitPoints("object", scene.transfer.object, sh_count(scene.transfer.bands)), scene.reflections,
-             wanted.shader_folder),
+      lights(static_cast<int>(scene.lights.size()), sphere_around(box), wanted.shader_folder),
+      object(scene.mesh, LitPoints("object", scene.transfer.object, scene.transfer.object_direct, sh_count(scene.transfer.bands)),
+             scene.reflections, scene.rest_reflections, wanted.shader_folder),
       glare(wanted.glare, wanted.shader_folder),
       composite(wanted.shader_folder) {
   settings.samples = supported_samples(wanted.samples);
-  if (grid.columns >= 2 && grid.rows >= 2) receiver = std::make_unique<ReceiverPass>(scene.transfer, wanted.shader_folder);
+  if (scene.transfer.grid.columns >= 2 && scene.transfer.grid.rows >= 2)
+    receiver = std::make_unique<ReceiverPass>(scene.transfer, wanted.shader_folder);
   check_gl("the compositor's start");
 }
 
 /// The light turns against the object only where the probe is fixed to the camera.
 void Compositor::Impl::relight(const glm::dmat3& tag_from_light) {
   if (lit_from == tag_from_light) return;
-  const ShRgb light_tag = tag_from_light == glm::dmat3(1.0) ? light_probe : rotate_sh(light_probe, tag_from_light);
-  light.set_light(light_tag);
-  object.light_by(light);
-  if (receiver) receiver->light_by(light, light_tag);
+  const TagLight light_tag = tag_from_light == glm::dmat3(1.0) ? light_probe : turned(light_probe, tag_from_light);
+  light.set_light(light_tag.whole, light_tag.split_off);
+  lights.update(light_tag.samples, [this] { object.draw_geometry(); });
+  object.light_by(light, lights);
+  if (receiver) receiver->light_by(light, light_tag, lights, box.min_m, box.max_m);
   lit_from = tag_from_light;
 }
 
@@ -129,7 +149,7 @@ PixelRect Compositor::Impl::reach(const FrameView& view) const {
   if (box.min_m.x <= box.max_m.x) rect = visible_rect(view.camera, view.camera_from_tag, box.min_m, box.max_m, kNear_m);
   const bool sees_front = inverse(view.camera_from_tag).translation_m.z > 0;
   if (receiver && sees_front) {
-    const glm::dvec3 min_m(grid.min_m, 0.0), max_m(grid.max_m, 0.0);
+    const glm::dvec3 min_m(receiver->reach().min_m, 0.0), max_m(receiver->reach().max_m, 0.0);
     rect = unite(rect, visible_rect(view.camera, view.camera_from_tag, min_m, max_m, kNear_m));
   }
   return rect;
@@ -155,6 +175,7 @@ bool Compositor::Impl::draw_virtual_layer(const FrameView& view, const PixelRect
   {
     const auto pass = clock.pass("object");
     if (receiver) receiver->bind();
+    lights.bind();
     glBindTextureUnit(TEXTURE_PLATE_LIGHT, composite.plate_light().id());
     object.draw(*object_target, rect, width, height);
   }
@@ -182,6 +203,10 @@ Composite Compositor::Impl::render(const FrameView& view, const PlateReader& pla
   clock.begin_frame();
   times.clear();
   const PixelRect whole{0, 0, view.camera.width_px, view.camera.height_px};
+  {
+    const auto pass = clock.pass("light");
+    relight(view.tag_from_light);
+  }
   const PixelRect virtual_rect = reach(view);
   Composite result;
   if (virtual_rect.empty() && !want_layers) return result;
@@ -189,10 +214,6 @@ Composite Compositor::Impl::render(const FrameView& view, const PlateReader& pla
   bool glares = false, has_whole_plate = false;
   PixelRect output_rect = virtual_rect;
   if (!virtual_rect.empty()) {
-    {
-      const auto pass = clock.pass("light");
-      relight(view.tag_from_light);
-    }
     update_view(view);
     if (mirrors_receiver(view)) {
       upload_plate(plate, whole);

@@ -12,6 +12,7 @@
 
 #include "catchlight.hpp"
 #include "render/image.hpp"
+#include "render/light_samples.hpp"
 #include "render/mesh.hpp"
 #include "render/prefilter.hpp"
 #include "render/sh.hpp"
@@ -31,13 +32,17 @@ struct Plate {
 /// Gives the requested part of the current frame; called only for what the virtual layer reaches.
 using PlateReader = std::function<Plate(const PixelRect&)>;
 
+inline constexpr int kMaxLightSamples = 128;
+
 /// What the scene is made of, all in the tag frame. Light is scene-linear radiance, Rec. 709.
 struct RenderScene {
   Mesh mesh;
   Transfer transfer;
-  ShRgb light;  ///< transfer.bands^2 coefficients
-  ReflectionMap reflections;
-  glm::vec3 probe_in_tag_m{0.0f};  ///< where the probe was captured
+  ShRgb light;                      ///< all of it: transfer.bands^2 coefficients
+  std::vector<LightSample> lights;  ///< split off; at most kMaxLightSamples, none where the transfer has no direct part
+  ReflectionMap reflections;        ///< all of it
+  ReflectionMap rest_reflections;   ///< less the lights; used where there are any
+  glm::vec3 probe_in_tag_m{0.0f};   ///< where the probe was captured
 };
 
 struct GlareSettings {

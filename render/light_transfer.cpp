@@ -3,44 +3,32 @@
 #include <algorithm>
 
 #include "catchlight.hpp"
-#include "render/shader.hpp"
 
 namespace catchlight::render {
 
-LightTransfer::LightTransfer(const std::string& shader_folder)
-    : program_(make_program({.vertex = "transfer.vert", .fragment = {}, .captured = {"transferred"}}, shader_folder)),
-      no_attributes_(make_vertex_array("no attributes")),
-      no_pixels_(make_framebuffer("no pixels")) {
-  glNamedFramebufferParameteri(no_pixels_.id(), GL_FRAMEBUFFER_DEFAULT_WIDTH, 1);
-  glNamedFramebufferParameteri(no_pixels_.id(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, 1);
-}
-
-void LightTransfer::set_light(const ShRgb& light_linear) {
+void LightTransfer::set_light(const ShRgb& light_linear, const ShRgb& split_off) {
   coefficients_ = static_cast<int>(std::min<std::size_t>(light_linear.size(), MAX_LIGHT_COEFFICIENTS));
   shader_interface::LightUniforms block{};
   block.count.x = coefficients_;
-  for (int i = 0; i < coefficients_; ++i) block.coefficients[i] = glm::vec4(light_linear[static_cast<std::size_t>(i)], 0.0f);
+  block.count.y = split_off.empty() ? 0 : 1;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(coefficients_); ++i) {
+    block.coefficients[i] = glm::vec4(light_linear[i], 0.0f);
+    if (!split_off.empty()) block.split_off[i] = glm::vec4(split_off[i], 0.0f);
+  }
   uniforms_.update(block);
 }
 
 void LightTransfer::capture(GLuint target, GLintptr offset, int points) const {
-  constexpr GLsizeiptr kPointBytes = sizeof(glm::vec3);
-  glBindFramebuffer(GL_FRAMEBUFFER, no_pixels_.id());
   uniforms_.bind(BINDING_LIGHT);
-  glUseProgram(program_.id());
-  glBindVertexArray(no_attributes_.id());
-  glBindBufferRange(GL_TRANSFORM_FEEDBACK_BUFFER, 0, target, offset, points * kPointBytes);
-  glEnable(GL_RASTERIZER_DISCARD);
-  glBeginTransformFeedback(GL_POINTS);
-  glDrawArrays(GL_POINTS, 0, points);
-  glEndTransformFeedback();
-  glDisable(GL_RASTERIZER_DISCARD);
-  glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
+  capture_.run(target, offset, points);
 }
 
-LitPoints::LitPoints(const std::string& label, std::span<const glm::vec3> transfer, int coefficients)
+LitPoints::LitPoints(const std::string& label, std::span<const glm::vec3> transfer, std::span<const glm::vec3> direct,
+                     int coefficients)
     : count_(static_cast<int>(transfer.size() / static_cast<std::size_t>(coefficients))),
+      has_direct_(!direct.empty()),
       transfer_(make_buffer(label + " transfer", transfer)),
+      direct_(make_buffer(label + " direct transfer", direct)),
       radiance_(make_buffer(label + " radiance", static_cast<std::size_t>(count_) * sizeof(glm::vec3), nullptr)) {}
 
 void LitPoints::evaluate(const LightTransfer& light) {
@@ -54,6 +42,9 @@ void LitPoints::evaluate(const LightTransfer& light) {
   for (int first = 0; first < count_; first += chunk) {
     const int points = std::min(chunk, count_ - first);
     glBindBufferRange(GL_SHADER_STORAGE_BUFFER, BINDING_TRANSFER, transfer_.id(), first * point_bytes, points * point_bytes);
+    // The shader always has it bound, and reads it only for a light that was split.
+    const GlBuffer& direct = has_direct_ ? direct_ : transfer_;
+    glBindBufferRange(GL_SHADER_STORAGE_BUFFER, BINDING_DIRECT_TRANSFER, direct.id(), first * point_bytes, points * point_bytes);
     light.capture(radiance_.id(), first * kValueBytes, points);
   }
 }

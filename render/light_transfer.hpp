@@ -5,6 +5,7 @@
 #include <string>
 
 #include "render/gl_objects.hpp"
+#include "render/point_capture.hpp"
 #include "render/sh.hpp"
 #include "shaders/interface.h"
 
@@ -13,20 +14,17 @@ namespace catchlight::render {
 /// The program and light that all LitPoints share.
 class LightTransfer {
  public:
-  explicit LightTransfer(const std::string& shader_folder);
+  explicit LightTransfer(const std::string& shader_folder) : capture_("transfer.vert", "transferred", shader_folder) {}
 
-  /// At most MAX_LIGHT_COEFFICIENTS.
-  void set_light(const ShRgb& light_linear);
+  /// At most MAX_LIGHT_COEFFICIENTS. `split_off` is the part of them whose direct way is left to shadow maps: as many, or none.
+  void set_light(const ShRgb& light_linear, const ShRgb& split_off = {});
   int coefficients() const { return coefficients_; }
 
   /// Captures `points` vertices' worth of transferred light (3 floats each) from byte `offset` of `target` on.
   void capture(GLuint target, GLintptr offset, int points) const;
 
  private:
-  GlProgram program_;
-  GlVertexArray no_attributes_;
-  GlFramebuffer
-      no_pixels_;  ///< GL wants a complete framebuffer even where nothing is drawn, and a context without a window has none
+  PointCapture capture_;
   UniformBuffer<shader_interface::LightUniforms> uniforms_{"light"};
   int coefficients_ = 0;
 };
@@ -34,10 +32,11 @@ class LightTransfer {
 /// Points with their transfer coefficients; any number of bands and points (worked through in chunks that GL can bind).
 class LitPoints {
  public:
-  /// `transfer` holds a multiple of `coefficients` values, point by point.
-  LitPoints(const std::string& label, std::span<const glm::vec3> transfer, int coefficients);
+  /// `transfer` holds a multiple of `coefficients` values, point by point; `direct`, the part of it that met no other surface, as
+  /// many, or none where no light is ever split off.
+  LitPoints(const std::string& label, std::span<const glm::vec3> transfer, std::span<const glm::vec3> direct, int coefficients);
 
-  /// Sum of light times transfer per point, >= 0.
+  /// Sum of light times transfer per point less what lights that are split off send directly, >= 0.
   void evaluate(const LightTransfer& light);
 
   int count() const { return count_; }
@@ -46,7 +45,8 @@ class LitPoints {
 
  private:
   int count_;
-  GlBuffer transfer_, radiance_;
+  bool has_direct_;
+  GlBuffer transfer_, direct_, radiance_;
 };
 
 }  // namespace catchlight::render

@@ -31,13 +31,16 @@ void set_attribute(GLuint array, GLuint attribute, GLuint binding, std::size_t o
 
 }  // namespace
 
-ObjectPass::ObjectPass(const Mesh& mesh, LitPoints vertices_lit, const ReflectionMap& reflections,
+ObjectPass::ObjectPass(const Mesh& mesh, LitPoints vertices_lit, const ReflectionMap& reflections, const ReflectionMap& rest,
                        const std::string& shader_folder)
     : program_(make_program({.vertex = "object.vert", .fragment = "object.frag", .captured = {}}, shader_folder)),
       exit_radiance_(std::move(vertices_lit)),
+      direct_light_capture_("direct_light.vert", "direct_light", shader_folder),
+      direct_light_(make_buffer("direct light", mesh.vertices.size() * sizeof(glm::vec3), nullptr)),
       vertices_(make_buffer("object vertices", std::span<const Vertex>(mesh.vertices))),
       vertex_array_(make_vertex_array("object")),
       probe_(make_reflection_texture(reflections)),
+      rest_(make_reflection_texture(rest)),
       brdf_table_(make_brdf_texture()) {
   upload_mesh(mesh);
   upload_materials(mesh);
@@ -89,6 +92,22 @@ void ObjectPass::upload_hierarchy(const Mesh& mesh) {
   bvh_triangles_ = make_buffer("hierarchy's triangles", std::span<const glm::uvec4>(triangles));
 }
 
+void ObjectPass::light_by(const LightTransfer& light, const ShadowedLights& lights) {
+  exit_radiance_.evaluate(light);
+  if (lights.count() == 0 || !reflects_) return;
+  lights.bind();
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_VERTICES, vertices_.id());
+  direct_light_capture_.run(direct_light_.id(), 0, exit_radiance_.count());
+}
+
+void ObjectPass::draw_geometry() const {
+  glBindVertexArray(vertex_array_.id());
+  if (!batches_.empty()) {
+    const Batch& last = batches_.back();
+    glDrawElements(GL_TRIANGLES, last.first_index + last.index_count, GL_UNSIGNED_INT, nullptr);
+  }
+}
+
 void ObjectPass::draw(const ObjectTarget& target, const PixelRect& rect, int frame_width, int frame_height) const {
   const float no_color[4] = {0, 0, 0, 0}, farthest = 0;
   reset_state();
@@ -106,9 +125,11 @@ void ObjectPass::draw(const ObjectTarget& target, const PixelRect& rect, int fra
   glBindVertexArray(vertex_array_.id());
   glBindTextureUnit(TEXTURE_PROBE, probe_.id());
   glBindTextureUnit(TEXTURE_BRDF, brdf_table_.id());
-  const GLuint storage[] = {bvh_nodes_.id(), bvh_triangles_.id(), vertices_.id(), exit_radiance_.radiance(), materials_.id()};
+  glBindTextureUnit(TEXTURE_REST, rest_.id());
+  const GLuint storage[] = {bvh_nodes_.id(),           bvh_triangles_.id(), vertices_.id(),
+                            exit_radiance_.radiance(), materials_.id(),     direct_light_.id()};
   static_assert(BINDING_BVH_NODES == 0 && BINDING_BVH_TRIANGLES == 1 && BINDING_VERTICES == 2 && BINDING_EXIT_RADIANCE == 3 &&
-                BINDING_MATERIALS == 4);
+                BINDING_MATERIALS == 4 && BINDING_DIRECT_LIGHT == 5);
   glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, std::size(storage), storage);
   for (const Batch& batch : batches_) {
     glUniform1i(kMaterialLocation, batch.material);

@@ -8,23 +8,30 @@
 #include "render/gl_objects.hpp"
 #include "render/light_transfer.hpp"
 #include "render/mesh.hpp"
+#include "render/point_capture.hpp"
 #include "render/prefilter.hpp"
 #include "render/render_target.hpp"
+#include "render/shadowed_lights.hpp"
 
 namespace catchlight::render {
 
 class ObjectPass {
  public:
-  ObjectPass(const Mesh& mesh, LitPoints vertices_lit, const ReflectionMap& reflections, const std::string& shader_folder);
+  /// `rest`: the reflections less the lights that are split off; not used without any.
+  ObjectPass(const Mesh& mesh, LitPoints vertices_lit, const ReflectionMap& reflections, const ReflectionMap& rest,
+             const std::string& shader_folder);
 
-  /// The object's exit radiance under `light`; needed again whenever the light turns.
-  void light_by(const LightTransfer& light) { exit_radiance_.evaluate(light); }
+  /// The object's exit radiance under `light`; needed again whenever the light turns. `lights` must be up to date.
+  void light_by(const LightTransfer& light, const ShadowedLights& lights);
+
+  /// All triangles, with any program.
+  void draw_geometry() const;
 
   /// Some material mirrors anything.
   bool reflects() const { return reflects_; }
 
   /// Into `target`, of which `rect` (pixels of a frame of that size) is drawn. Needs the ViewUniforms bound, and where their
-  /// options say so the receiver (ReceiverPass::bind) and the plate's light.
+  /// options say so the receiver (ReceiverPass::bind) and the plate's light; always the lights (ShadowedLights::bind).
   void draw(const ObjectTarget& target, const PixelRect& rect, int frame_width, int frame_height) const;
 
  private:
@@ -39,9 +46,11 @@ class ObjectPass {
 
   GlProgram program_;
   LitPoints exit_radiance_;
-  GlBuffer vertices_, indices_, materials_, bvh_nodes_, bvh_triangles_;
+  PointCapture direct_light_capture_;
+  GlBuffer direct_light_,  ///< irradiance / pi from the lights at each vertex
+      vertices_, indices_, materials_, bvh_nodes_, bvh_triangles_;
   GlVertexArray vertex_array_;
-  GlTexture probe_, brdf_table_;
+  GlTexture probe_, rest_, brdf_table_;
   std::vector<Batch> batches_;
   bool reflects_ = false;
 };

@@ -46,11 +46,21 @@ const RenderScene& checked(const RenderScene& scene) {
           "a triangle's material is beyond the materials");
   require(std::ranges::all_of(mesh.vertices, [](const Vertex& v) { return finite(v.position_m, 3); }),
           "a vertex position is not finite");
+  static_assert(kMaxLightSamples <= MAX_LIGHT_SAMPLES);
+  require(scene.lights.size() <= kMaxLightSamples,
+          std::to_string(scene.lights.size()) + " light samples, at most " + std::to_string(kMaxLightSamples) + " are possible");
+  for (const LightSample& light : scene.lights)
+    require(finite(light.direction, 3) && finite(light.irradiance, 3), "a light is not finite");
+  if (!scene.lights.empty())
+    require_count(transfer.object_direct.size(), transfer.object.size(), "direct transfer coefficients for the mesh's vertices");
   const ReceiverGrid& grid = transfer.grid;
   if (grid.columns < 2 || grid.rows < 2) return scene;
   require_count(transfer.receiver.size(),
                 static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows) * coefficients,
                 "transfer coefficients for the receiver's points");
+  if (!scene.lights.empty())
+    require_count(transfer.receiver_direct.size(), transfer.receiver.size(),
+                  "direct transfer coefficients for the receiver's points");
   require_count(transfer.receiver_unshadowed.size(), coefficients, "unshadowed receiver coefficients");
   require(finite(grid.min_m, 2) && finite(grid.max_m, 2), "the receiver's corners are not finite");
   return scene;

@@ -14,12 +14,13 @@ namespace catchlight::render {
 namespace {
 
 constexpr std::size_t kPointsPerTask = 64;
-constexpr int kRimCells = 4;      // over which the receiver's shadow fades to nothing
-constexpr int kCoveredRings = 2;  // of covered points that are filled from their neighbours
 
 // Rays start this share of the mesh's size above the surface: a hundred times the rounding of its coordinates, a hundredth of a
 // pixel.
 constexpr float kLift = 1e-5f;
+
+constexpr float kLeastBounce = 0.004f;  // of the brightest spot: what comes back of less is below one code of 255
+constexpr int kLeastRays = 256;
 
 using Basis = std::array<float, kMaxShBands * kMaxShBands>;
 
@@ -75,22 +76,22 @@ class Baker {
   }
 
   Transfer bake(const ReceiverGrid& grid) {
-    const std::size_t points = static_cast<std::size_t>(grid.columns) * grid.rows, vertices = mesh_.vertices.size();
-    total_ = static_cast<double>(vertices) * (1 + options_.bounces) + static_cast<double>(points);
-    Transfer transfer{options_.bands, {}, grid, {}, std::vector<float>(count_)};
+    const std::size_t vertices = mesh_.vertices.size();
+    total_ = static_cast<double>(vertices + grid.points()) * (1 + options_.bounces);
+    Transfer transfer;
+    transfer.bands = options_.bands;
+    transfer.grid = grid;
+    transfer.receiver_unshadowed.resize(count_);
     unshadowed_lobe(glm::vec3(0, 0, 1), options_.bands, transfer.receiver_unshadowed);
-    transfer.object.resize(vertices * count_);
-    for_points(vertices, [&](std::size_t v) { bake_direct(v, coefficients(transfer.object, v)); });
-    const std::vector<glm::vec3> direct = transfer.object;
-    for (int bounce = 0; bounce < options_.bounces; ++bounce) {
-      const std::vector<glm::vec3> before = transfer.object;
-      for_points(vertices, [&](std::size_t v) { bake_bounce(v, direct, before, coefficients(transfer.object, v)); });
-    }
-    transfer.receiver.resize(points * count_);
-    std::vector<char> covered(points);
-    for_points(points, [&](std::size_t p) { covered[p] = bake_receiver(p, transfer); });
-    fill_covered(transfer, covered);
-    fade_rim(transfer);
+    receiver_sends_back_ = options_.bounces > 0 && grid.points() > 0 && options_.receiver_albedo.known();
+    transfer.object_direct.resize(vertices * count_);
+    for_points(vertices, [&](std::size_t v) { bake_direct(v, coefficients(transfer.object_direct, v)); });
+    const std::vector<char> covered = bake_receiver_direct(transfer);
+    transfer.object = transfer.object_direct;
+    transfer.receiver = transfer.receiver_direct;
+    bake_bounces(transfer);
+    finish_receiver(transfer, covered, transfer.receiver_direct);
+    finish_receiver(transfer, covered, transfer.receiver);
     return transfer;
   }
 
@@ -112,11 +113,12 @@ class Baker {
 
   // visit(origin, direction) for every ray of the point.
   template <typename Visit>
-  void for_rays(const glm::vec3& position_m, const glm::vec3& normal, const Visit& visit) const {
+  void for_rays(const glm::vec3& position_m, const glm::vec3& normal, int rays, const Visit& visit) const {
     const Hemisphere hemisphere(normal);
-    const glm::vec3 origin_m = position_m + lift_m_ * glm::normalize(normal);
+    glm::vec3 origin_m = position_m + lift_m_ * glm::normalize(normal);
+    if (receiver_sends_back_) origin_m.z = std::max(origin_m.z, lift_m_);
     const std::uint32_t seed = seed_of(position_m, normal, options_.seed);
-    for (int k = 0; k < options_.rays; ++k) visit(origin_m, hemisphere.direction(scrambled_sobol(k, seed)));
+    for (int k = 0; k < rays; ++k) visit(origin_m, hemisphere.direction(scrambled_sobol(k, seed)));
   }
 
   // The closed form of the open hemisphere less what the occluded rays would have brought: exact where nothing is in the way, and
@@ -126,7 +128,7 @@ class Baker {
     if (albedo_[v] == glm::vec3(0)) return;
     Basis lobe, basis, blocked{};
     unshadowed_lobe(vertex.normal, options_.bands, std::span(lobe).first(count_));
-    for_rays(vertex.position_m, vertex.normal, [&](const glm::vec3& origin_m, const glm::vec3& direction) {
+    for_rays(vertex.position_m, vertex.normal, options_.rays, [&](const glm::vec3& origin_m, const glm::vec3& direction) {
       if (!scene_.occluded(origin_m, direction)) return;
       evaluate_sh(direction, options_.bands, std::span(basis).first(count_));
       for (int i = 0; i < count_; ++i) blocked[i] += basis[i];
@@ -134,16 +136,74 @@ class Baker {
     for (int i = 0; i < count_; ++i) out[i] = albedo_[v] * (lobe[i] - blocked[i] / static_cast<float>(options_.rays));
   }
 
-  // Light on its way over one more surface: what the front faces that the rays hit send back. (The same rays as before.)
-  void bake_bounce(std::size_t v, const std::vector<glm::vec3>& direct, const std::vector<glm::vec3>& before,
-                   std::span<glm::vec3> out) const {
+  // Light on its way over one more surface each time, until it stops mattering. What came last is passed on alone, so that fewer
+  // rays do for it the less it is.
+  void bake_bounces(Transfer& transfer) {
+    const std::size_t vertices = mesh_.vertices.size();
+    std::vector<glm::vec3> last = transfer.object_direct, sent_up = sent_up_by(transfer.receiver_direct, transfer.grid);
+    for (int bounce = 0; bounce < options_.bounces && largest(last) > kLeastBounce * largest(transfer.object); ++bounce) {
+      const int rays = std::max(options_.rays >> (2 * bounce), std::min(options_.rays, kLeastRays));
+      std::vector<glm::vec3> next(last.size()), on_receiver(transfer.receiver.size());
+      for_points(vertices, [&](std::size_t v) { gather(v, rays, last, transfer, sent_up, bounce == 0, coefficients(next, v)); });
+      for_points(transfer.grid.points(),
+                 [&](std::size_t p) { gather_on_receiver(p, rays, last, transfer.grid, coefficients(on_receiver, p)); });
+      add(next, transfer.object);
+      add(on_receiver, transfer.receiver);
+      sent_up = sent_up_by(on_receiver, transfer.grid);
+      last = std::move(next);
+    }
+  }
+
+  // Of the first coefficients, which all others keep below.
+  float largest(const std::vector<glm::vec3>& all) const {
+    float most = 0;
+    for (std::size_t i = 0; i < all.size(); i += count_) most = std::max({most, all[i].x, all[i].y, all[i].z});
+    return most;
+  }
+
+  static void add(const std::vector<glm::vec3>& more, std::vector<glm::vec3>& sum) {
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += more[i];
+  }
+
+  // What leaves the vertex of the light that front faces and the receiver sent in its direction.
+  void gather(std::size_t v, int rays, const std::vector<glm::vec3>& sent, const Transfer& transfer,
+              const std::vector<glm::vec3>& sent_up, bool first_time, std::span<glm::vec3> out) const {
     if (albedo_[v] == glm::vec3(0)) return;
-    const float share = 1.0f / static_cast<float>(options_.rays);
-    std::array<glm::vec3, kMaxShBands * kMaxShBands> arriving{};
-    for_rays(mesh_.vertices[v].position_m, mesh_.vertices[v].normal, [&](const glm::vec3& origin_m, const glm::vec3& direction) {
-      if (const auto hit = scene_.closest_hit(origin_m, direction)) add_exit_radiance(*hit, before, share, arriving);
-    });
-    for (int i = 0; i < count_; ++i) out[i] = direct[v * count_ + i] + albedo_[v] * arriving[i];
+    const float share = 1.0f / static_cast<float>(rays);
+    for_rays(mesh_.vertices[v].position_m, mesh_.vertices[v].normal, rays,
+             [&](const glm::vec3& origin_m, const glm::vec3& direction) {
+               if (const auto hit = scene_.closest_hit(origin_m, direction)) {
+                 add_exit_radiance(*hit, sent, share, out);
+               } else if (receiver_sends_back_ && direction.z < 0) {
+                 const glm::vec2 place_m = glm::vec2(origin_m) - origin_m.z / direction.z * glm::vec2(direction);
+                 const auto p = transfer.grid.nearest(place_m);
+                 for (int i = 0; p && i < count_; ++i) out[i] += share * sent_up[*p * count_ + i];
+                 if (first_time) correct_for_receiver(place_m, direction, !p, transfer, share, out);
+               }
+             });
+    for (glm::vec3& value : out) value *= albedo_[v];
+  }
+
+  // The light counts what the probe saw below the plane as infinitely far away and open to the sky: takes that out, for what is
+  // met where the plane is. Both are shares of the light that reaches the plane, so no sharp horizon has to be held by a few
+  // bands.
+  void correct_for_receiver(const glm::vec2& place_m, const glm::vec3& direction, bool beyond_grid, const Transfer& transfer,
+                            float share, std::span<glm::vec3> sum) const {
+    glm::vec3 albedo = -options_.receiver_albedo.towards(direction);
+    if (beyond_grid) albedo += options_.receiver_albedo.at(place_m);
+    for (int i = 0; i < count_; ++i) sum[i] += share * transfer.receiver_unshadowed[i] * albedo;
+  }
+
+  // What each of the receiver's points sends back of its light.
+  std::vector<glm::vec3> sent_up_by(const std::vector<glm::vec3>& receiver, const ReceiverGrid& grid) const {
+    std::vector<glm::vec3> sent_up;
+    if (!receiver_sends_back_) return sent_up;
+    sent_up.reserve(receiver.size());
+    for (std::size_t p = 0; p < grid.points(); ++p) {
+      const glm::vec3 albedo = options_.receiver_albedo.at(grid.place_m(p));
+      for (int i = 0; i < count_; ++i) sent_up.push_back(albedo * receiver[p * count_ + i]);
+    }
+    return sent_up;
   }
 
   void add_exit_radiance(const RayHit& hit, const std::vector<glm::vec3>& object, float share, std::span<glm::vec3> sum) const {
@@ -155,100 +215,62 @@ class Baker {
     }
   }
 
-  glm::vec3 receiver_point(const ReceiverGrid& grid, std::size_t p) const {
-    const auto place = [](float from, float to, std::size_t i, int count) {
-      return count > 1 ? from + (to - from) * static_cast<float>(i) / static_cast<float>(count - 1) : from;
-    };
-    return {place(grid.min_m.x, grid.max_m.x, p % grid.columns, grid.columns),
-            place(grid.min_m.y, grid.max_m.y, p / grid.columns, grid.rows), lift_m_};
-  }
-
   // visit(direction, weight): sum of weight * f = (1 / pi) integral of max(z, 0) f dw for any f that is 0 where the object is
   // not. From afar the object is small in the sky: there the rays go into the cone around its bounding sphere, uniformly.
   template <typename Visit>
-  void for_receiver_rays(const glm::vec3& origin_m, const Visit& visit) const {
+  void for_receiver_rays(const glm::vec3& origin_m, int rays, const Visit& visit) const {
     const std::uint32_t seed = seed_of(origin_m, glm::vec3(0, 0, 1), options_.seed);
     const glm::vec3 to_middle_m = middle_m_ - origin_m;
     const double sin_cone = radius_m_ / glm::length(to_middle_m);
     const bool narrow = sin_cone < 0.7;
     const double cos_cone = narrow ? std::sqrt(1 - sin_cone * sin_cone) : 0;
     const Hemisphere hemisphere(narrow ? to_middle_m : glm::vec3(0, 0, 1));
-    for (int k = 0; k < options_.rays; ++k) {
+    for (int k = 0; k < rays; ++k) {
       const glm::dvec2 square = scrambled_sobol(k, seed);
       const glm::vec3 direction = narrow ? hemisphere.cone_direction(square, cos_cone) : hemisphere.direction(square);
       const double weight = narrow ? 2 * (1 - cos_cone) * std::max(direction.z, 0.0f) : 1.0;
-      if (weight > 0) visit(direction, static_cast<float>(weight / options_.rays));
+      if (weight > 0) visit(direction, static_cast<float>(weight / rays));
     }
   }
 
-  // Returns whether the object covers the point: no ray escapes, so no camera sees it, and a good part of them look at back faces
-  // (half of them where the point lies on a wall).
-  bool bake_receiver(std::size_t p, Transfer& transfer) const {
-    const glm::vec3 origin_m = receiver_point(transfer.grid, p);
-    Basis basis;
-    std::array<glm::vec3, kMaxShBands * kMaxShBands> change{};
-    float blocked = 0, inside = 0;
-    for_receiver_rays(origin_m, [&](const glm::vec3& direction, float weight) {
-      const auto hit = scene_.closest_hit(origin_m, direction);
-      if (!hit) return;
-      blocked += weight;
-      if (!hit->front_facing) inside += weight;
-      evaluate_sh(direction, options_.bands, std::span(basis).first(count_));
-      for (int i = 0; i < count_; ++i) change[i] -= weight * basis[i];
-      if (options_.bounces > 0) add_exit_radiance(*hit, transfer.object, weight, change);
+  // Fills receiver_direct. Returns which points the object covers: no ray escapes, so no camera sees them, and a good part of
+  // them look at back faces (half of them where the point lies on a wall).
+  std::vector<char> bake_receiver_direct(Transfer& transfer) {
+    const ReceiverGrid& grid = transfer.grid;
+    transfer.receiver_direct.resize(grid.points() * count_);
+    std::vector<char> covered(grid.points());
+    for_points(grid.points(), [&](std::size_t p) {
+      const glm::vec3 origin_m(grid.place_m(p), lift_m_);
+      Basis basis, blocked_light{};
+      float blocked = 0, inside = 0;
+      for_receiver_rays(origin_m, options_.rays, [&](const glm::vec3& direction, float weight) {
+        const auto hit = scene_.closest_hit(origin_m, direction);
+        if (!hit) return;
+        blocked += weight;
+        if (!hit->front_facing) inside += weight;
+        evaluate_sh(direction, options_.bands, std::span(basis).first(count_));
+        for (int i = 0; i < count_; ++i) blocked_light[i] += weight * basis[i];
+      });
+      const std::span<glm::vec3> out = coefficients(transfer.receiver_direct, p);
+      for (int i = 0; i < count_; ++i) out[i] = glm::vec3(transfer.receiver_unshadowed[i] - blocked_light[i]);
+      covered[p] = blocked > 1 - 0.5f / static_cast<float>(options_.rays) && inside > 0.25f;
     });
-    const std::span<glm::vec3> out = coefficients(transfer.receiver, p);
-    for (int i = 0; i < count_; ++i) out[i] = transfer.receiver_unshadowed[i] + change[i];
-    return blocked > 1 - 0.5f / static_cast<float>(options_.rays) && inside > 0.25f;
+    return covered;
   }
 
-  // Covered points are never seen, but the points beside it are blended with them along the contact line: those next
-  // to the border take the mean of their open neighbours, so that neither darkness nor light leaks out.
-  void fill_covered(Transfer& transfer, std::vector<char>& covered) const {
-    const int columns = transfer.grid.columns, rows = transfer.grid.rows;
-    for (int ring = 0; ring < kCoveredRings; ++ring) {
-      const std::vector<char> before = covered;
-      for (int y = 0; y < rows; ++y) {
-        for (int x = 0; x < columns; ++x) {
-          const std::size_t p = static_cast<std::size_t>(y) * columns + x;
-          if (before[p]) covered[p] = !fill_from_neighbours(transfer, before, x, y);
-        }
-      }
-    }
+  // What the object sends down.
+  void gather_on_receiver(std::size_t p, int rays, const std::vector<glm::vec3>& sent, const ReceiverGrid& grid,
+                          std::span<glm::vec3> out) const {
+    const glm::vec3 origin_m(grid.place_m(p), lift_m_);
+    for_receiver_rays(origin_m, rays, [&](const glm::vec3& direction, float weight) {
+      if (const auto hit = scene_.closest_hit(origin_m, direction)) add_exit_radiance(*hit, sent, weight, out);
+    });
   }
 
-  bool fill_from_neighbours(Transfer& transfer, const std::vector<char>& covered, int x, int y) const {
-    const int columns = transfer.grid.columns, rows = transfer.grid.rows;
-    std::vector<glm::vec3> sum(count_, glm::vec3(0));
-    int open = 0;
-    for (int ny = std::max(y - 1, 0); ny <= std::min(y + 1, rows - 1); ++ny) {
-      for (int nx = std::max(x - 1, 0); nx <= std::min(x + 1, columns - 1); ++nx) {
-        const std::size_t neighbour = static_cast<std::size_t>(ny) * columns + nx;
-        if (covered[neighbour]) continue;
-        ++open;
-        for (int i = 0; i < count_; ++i) sum[i] += transfer.receiver[neighbour * count_ + i];
-      }
-    }
-    if (open == 0) return false;
-    const std::span<glm::vec3> out = coefficients(transfer.receiver, static_cast<std::size_t>(y) * columns + x);
-    for (int i = 0; i < count_; ++i) out[i] = sum[i] / static_cast<float>(open);
-    return true;
-  }
-
-  // Beyond the grid nothing is shadowed, so at its rim nothing may be: no border shows.
-  void fade_rim(Transfer& transfer) const {
-    const int columns = transfer.grid.columns, rows = transfer.grid.rows;
-    const int cells = std::min({kRimCells, (columns - 1) / 2, (rows - 1) / 2});
-    if (cells < 1) return;
-    for (int y = 0; y < rows; ++y) {
-      for (int x = 0; x < columns; ++x) {
-        const int from_rim = std::min({x, y, columns - 1 - x, rows - 1 - y});
-        if (from_rim >= cells) continue;
-        const float t = static_cast<float>(from_rim) / static_cast<float>(cells), kept = t * t * (3 - 2 * t);
-        const std::span<glm::vec3> out = coefficients(transfer.receiver, static_cast<std::size_t>(y) * columns + x);
-        for (int i = 0; i < count_; ++i) out[i] = glm::mix(glm::vec3(transfer.receiver_unshadowed[i]), out[i], kept);
-      }
-    }
+  static void finish_receiver(const Transfer& transfer, const std::vector<char>& covered, std::span<glm::vec3> values) {
+    const std::vector<glm::vec3> unshadowed(transfer.receiver_unshadowed.begin(), transfer.receiver_unshadowed.end());
+    fill_covered(transfer.grid, covered, values);
+    fade_rim(transfer.grid, unshadowed, values);
   }
 
   const Mesh& mesh_;
@@ -259,24 +281,11 @@ class Baker {
   std::vector<glm::vec3> albedo_;
   glm::vec3 middle_m_{0};  // of a sphere around the object
   float radius_m_ = 0, lift_m_ = 0;
+  bool receiver_sends_back_ = false;
   double done_ = 0, total_ = 1;
 };
 
 }  // namespace
-
-ReceiverGrid receiver_grid_for(const Mesh& mesh_tag, int points_across) {
-  const Bounds bounds = bounds_of(mesh_tag);
-  if (points_across < 2 || !(bounds.max_m.z > 0)) return {};
-  // Twice the height away the object fills 1 % of the cosine-weighted sky or less.
-  const glm::vec2 margin(2 * bounds.max_m.z);
-  ReceiverGrid grid{glm::vec2(bounds.min_m) - margin, glm::vec2(bounds.max_m) + margin, 0, 0};
-  const glm::vec2 size = grid.max_m - grid.min_m;
-  const float cell = std::max(size.x, size.y) / static_cast<float>(points_across - 1);
-  grid.columns = static_cast<int>(std::ceil(size.x / cell - 1e-3f)) + 1;
-  grid.rows = static_cast<int>(std::ceil(size.y / cell - 1e-3f)) + 1;
-  grid.max_m = grid.min_m + cell * glm::vec2(grid.columns - 1, grid.rows - 1);
-  return grid;
-}
 
 Transfer bake_transfer(const Mesh& mesh_tag, const ReceiverGrid& grid, const TransferOptions& options,
                        const ProgressHandler& progress) {

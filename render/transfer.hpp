@@ -9,21 +9,20 @@
 
 #include "catchlight.hpp"
 #include "render/mesh.hpp"
+#include "render/receiver_albedo.hpp"
+#include "render/receiver_grid.hpp"
 
 namespace catchlight::render {
 
 struct TransferOptions {
   int bands = 6;
   int rays = 512;   ///< a vertex, over the hemisphere
-  int bounces = 0;  ///< interreflections within the object
+  int bounces = 0;  ///< interreflections within the object, and between it and the receiver
+  /// Of the receiver, where `bounces` and a grid are given: its light then reaches the object from its true place, darkened by
+  /// the object, and only what lies above the plane counts as sky. Unknown: what is below is lit and as far away as the sky.
+  ReceiverAlbedo receiver_albedo;
   std::uint32_t seed = 1;
   int threads = 0;  ///< 0: all cores. The result does not depend on it.
-};
-
-/// The part of the receiving plane (tag z = 0) that the object's shadow may reach, as a regular grid of points.
-struct ReceiverGrid {
-  glm::vec2 min_m{0}, max_m{0};  ///< tag x, y of the first and last points
-  int columns = 0, rows = 0;     ///< points; 0: no receiver
 };
 
 /// All in the tag frame. Vertex v's exit radiance per channel = sum_i light_i * object[v * n^2 + i]: albedo (of the diffuse part)
@@ -32,21 +31,20 @@ struct ReceiverGrid {
 /// (albedo 1) surface.
 struct Transfer {
   int bands = 0;
-  std::vector<glm::vec3> object;  ///< vertices * bands^2
+  std::vector<glm::vec3> object;         ///< vertices * bands^2
+  std::vector<glm::vec3> object_direct;  ///< the part of it that met no other surface
   ReceiverGrid grid;
   std::vector<glm::vec3> receiver;         ///< rows * columns * bands^2, row-major from min
+  std::vector<glm::vec3> receiver_direct;  ///< the part of it that met no other surface
   std::vector<float> receiver_unshadowed;  ///< bands^2, the closed form for normal +z
 };
 
-/// A grid that covers where the shadow matters: the mesh's footprint widened with its height.
-ReceiverGrid receiver_grid_for(const Mesh& mesh_tag, int points_across);
-
 /// `mesh_tag` is in the tag frame. Values are the closed form of the open hemisphere less the occluded rays, so exact where
-/// nothing is in the way. Faces block light from either side, and send it back (with bounces) from their front. The receiver does
-/// not block the object's light: what it sends up is in the probe. Rays follow the vertex normal's hemisphere: where that dips
-/// into the solid they are blocked. The receiver's shadow fades to nothing over the grid's outer 4 cells; points covered by the
-/// object take their neighbours' values. Throws Error for a mesh without triangles or options out of range (1 to 10 bands, 1 ray
-/// or more).
+/// nothing is in the way. Faces block light from either side, and send it back (with bounces) from their front. Where the
+/// receiver's albedo is known, vertices below its plane (a sunk object) are lit as if on it. Rays follow the vertex normal's
+/// hemisphere: where that dips into the solid they are blocked. The receiver's shadow fades to nothing over the grid's outer 4
+/// cells; points covered by the object take their neighbours' values. Throws Error for a mesh without triangles or options out of
+/// range (1 to 10 bands, 1 ray or more).
 Transfer bake_transfer(const Mesh& mesh_tag, const ReceiverGrid& grid, const TransferOptions& options,
                        const ProgressHandler& progress);
 

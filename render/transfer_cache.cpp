@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Raise when the bake or the file changes: older files then no longer match.
-constexpr std::uint32_t kFormatVersion = 1;
+constexpr std::uint32_t kFormatVersion = 3;
 constexpr std::array<char, 8> kMagic{'C', 'L', 'T', 'R', 'A', 'N', 'S', 'F'};
 
 // 128 bits out of two FNV-1a hashes over 64-bit words (Fowler, Noll & Vo) with different starts. Guards against accidents, not
@@ -88,7 +88,9 @@ FileHeader header_for(const Transfer& transfer, const std::string& key) {
   header.receiver_count = transfer.receiver.size();
   Hash hash;
   hash.add(transfer.object);
+  hash.add(transfer.object_direct);
   hash.add(transfer.receiver);
+  hash.add(transfer.receiver_direct);
   hash.add(transfer.receiver_unshadowed);
   header.content = hash.value();
   return header;
@@ -111,17 +113,19 @@ std::optional<Transfer> read_cached(const fs::path& file, const std::string& key
   FileHeader header;
   if (!in.read(reinterpret_cast<char*>(&header), sizeof header)) return std::nullopt;
   const std::size_t count = static_cast<std::size_t>(bands) * bands;
-  Transfer transfer{bands, {}, grid, {}, std::vector<float>(count)};
+  Transfer transfer{bands, {}, {}, grid, {}, {}, std::vector<float>(count)};
   const std::uint64_t object_count = mesh.vertices.size() * count;
   const std::uint64_t receiver_count = static_cast<std::uint64_t>(grid.columns) * grid.rows * count;
   if (header.magic != kMagic || std::string(header.key.begin(), header.key.end()) != key || header.object_count != object_count ||
       header.receiver_count != receiver_count) {
     return std::nullopt;
   }
-  transfer.object.resize(object_count);
-  transfer.receiver.resize(receiver_count);
+  for (auto* values : {&transfer.object, &transfer.object_direct}) values->resize(object_count);
+  for (auto* values : {&transfer.receiver, &transfer.receiver_direct}) values->resize(receiver_count);
   read_into(in, transfer.object);
+  read_into(in, transfer.object_direct);
   read_into(in, transfer.receiver);
+  read_into(in, transfer.receiver_direct);
   read_into(in, transfer.receiver_unshadowed);
   const FileHeader expected = header_for(transfer, key);
   if (!in || in.peek() != std::char_traits<char>::eof() || std::memcmp(&header, &expected, sizeof header) != 0)
@@ -138,7 +142,9 @@ void write_cached(const fs::path& file, const std::string& key, const Transfer& 
   const FileHeader header = header_for(transfer, key);
   out.write(reinterpret_cast<const char*>(&header), sizeof header);
   write_from(out, transfer.object);
+  write_from(out, transfer.object_direct);
   write_from(out, transfer.receiver);
+  write_from(out, transfer.receiver_direct);
   write_from(out, transfer.receiver_unshadowed);
   out.close();
   if (!out) {
@@ -158,6 +164,9 @@ std::string transfer_key(const Mesh& mesh_tag, const ReceiverGrid& grid, const T
   for (const float value : {grid.min_m.x, grid.min_m.y, grid.max_m.x, grid.max_m.y}) hash.add(value);
   for (const int value : {grid.columns, grid.rows, options.bands, options.rays, options.bounces}) hash.add(value);
   hash.add(options.seed);
+  hash.add(options.receiver_albedo.seen_from_m);
+  hash.add(options.receiver_albedo.image.width);
+  hash.add(options.receiver_albedo.image.data);
   std::array<char, 33> text;
   const auto value = hash.value();
   std::snprintf(text.data(), text.size(), "%016llx%016llx", static_cast<unsigned long long>(value[0]),

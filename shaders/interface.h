@@ -16,26 +16,34 @@ using glm::vec4;
 #endif
 
 #define MAX_LIGHT_COEFFICIENTS 100
+#define MAX_LIGHT_SAMPLES 128
+#define RECEIVER_CELLS 96
 
 // Uniform blocks
 #define BINDING_VIEW 0
 #define BINDING_LIGHT 1
 #define BINDING_RECEIVER 2
 #define BINDING_COMPOSITE 3
+#define BINDING_LIGHT_SAMPLES 4
 
 // Storage blocks
 #define BINDING_TRANSFER 0
+#define BINDING_DIRECT_TRANSFER 1
 #define BINDING_BVH_NODES 0
 #define BINDING_BVH_TRIANGLES 1
 #define BINDING_VERTICES 2
 #define BINDING_EXIT_RADIANCE 3
 #define BINDING_MATERIALS 4
+#define BINDING_DIRECT_LIGHT 5
 
 // Textures
 #define TEXTURE_PROBE 0
 #define TEXTURE_BRDF 1
 #define TEXTURE_RATIO 2
 #define TEXTURE_PLATE_LIGHT 3
+#define TEXTURE_RECEIVER_LIGHT 4
+#define TEXTURE_SHADOW_MAPS 5
+#define TEXTURE_REST 6
 #define TEXTURE_OBJECT 0
 #define TEXTURE_SHADOW 1
 #define TEXTURE_PLATE 2
@@ -83,13 +91,29 @@ struct SurfaceMaterial {
 };
 
 UNIFORM_BLOCK(LightUniforms, BINDING_LIGHT) {
-  ivec4 count;              // coefficients
+  ivec4 count;              // coefficients; whether lights are split off
   vec4 coefficients[MAX_LIGHT_COEFFICIENTS];
+  vec4 split_off[MAX_LIGHT_COEFFICIENTS];  // the lights' part of them
 } BLOCK_NAME(light);
+
+// Lights split off the probe.
+UNIFORM_BLOCK(LightSampleUniforms, BINDING_LIGHT_SAMPLES) {
+  ivec4 count;              // samples
+  vec4 sphere;              // around the object: middle in the tag frame, radius
+  vec4 lift_m;              // x: how far above a surface its shadows are looked up
+  vec4 to_light[MAX_LIGHT_SAMPLES];    // tag frame, length 1; w: spread (rad)
+  vec4 right[MAX_LIGHT_SAMPLES];       // of the shadow map
+  vec4 irradiance[MAX_LIGHT_SAMPLES];  // on a surface that faces the light
+} BLOCK_NAME(light_samples);
 
 UNIFORM_BLOCK(ReceiverUniforms, BINDING_RECEIVER) {
   vec4 min_max_m;           // tag x, y of the first and last points
+  vec4 lights_min_max_m;    // of the corners of the lights' texture
+  vec4 drawn_min_max_m;     // around both
   vec4 one_over_unshadowed;
+  vec4 unshadowed_rest;     // irradiance / pi of what is not split off
+  vec4 unshadowed_lights;
+  vec4 light_texels;        // width, height; 0 without lights
   ivec4 points;             // columns, rows
 } BLOCK_NAME(receiver);
 

@@ -38,11 +38,23 @@ void main() {
   vec3 n = shading_normal(to_viewer);
   vec4 factor = mirror_factor(m, surface.color, dot(n, to_viewer));
   vec3 reflected = vec3(0.0);
-  if (m.base_color_metallic.a > 0.0 || m.dielectric.x > 0.0)
-    reflected = factor.rgb * mirrored_radiance(surface.position_tag_m, n, to_viewer, m.emissive_roughness.a);
+  float roughness = m.emissive_roughness.a;
+  bool mirrors = m.base_color_metallic.a > 0.0 || m.dielectric.x > 0.0;
+  bool highlights = mirrors && shows_lights_as_highlights(roughness);
+  if (mirrors) reflected = factor.rgb * mirrored_radiance(surface.position_tag_m, n, to_viewer, roughness, !highlights);
+
+  vec3 diffuse = surface.exit_radiance, albedo = diffuse_albedo(m, surface.color), f0 = mirror_f0(m, surface.color);
+  float f90 = mirror_f90(m), alpha = roughness * roughness;
+  for (int i = 0; i < light_samples.count.x; ++i) {
+    vec3 arriving = irradiance_from(i, surface.position_tag_m, n);
+    if (arriving == vec3(0.0)) continue;
+    vec4 to_light = light_samples.to_light[i];
+    diffuse += arriving * albedo / kPi;
+    if (highlights) reflected += arriving * glossy_brdf(n, to_viewer, to_light.xyz, to_light.w, alpha, f0, f90);
+  }
 
   // What the dielectric boundary mirrors does not reach the pigment below it.
-  vec3 radiance = surface.exit_radiance * factor.a + reflected + m.emissive_roughness.rgb;
+  vec3 radiance = diffuse * factor.a + reflected + m.emissive_roughness.rgb;
 
   object_color = vec4(exposed(radiance), 1.0);
   reflection_color = vec4(exposed(reflected), 1.0);

@@ -2,7 +2,7 @@
 #include "interface.h"
 #include "receiver.glsl"
 
-in vec2 grid_position;  // in grid points, 0 at the first
+in vec2 place;  // tag x, y
 layout(location = 0) out vec4 ratio;
 
-void main() { ratio = vec4(shadow_ratio(grid_position), 1.0); }
+void main() { ratio = vec4(shadow_ratio(place), 1.0); }

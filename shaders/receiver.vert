@@ -1,12 +1,13 @@
-// The grid of the receiving plane: instance = row, a triangle strip along the columns.
+// The drawn part of the receiving plane in RECEIVER_CELLS x RECEIVER_CELLS cells, so that lenses may bend it: instance = row, a triangle
+// strip along the columns.
 #version 450 core
 #include "interface.h"
 #include "lens.glsl"
 
-out vec2 grid_position;  // in grid points, 0 at the first
+out vec2 place;  // tag x, y
 
 void main() {
-  grid_position = vec2(gl_VertexID >> 1, gl_InstanceID + (gl_VertexID & 1));
-  vec2 share = grid_position / vec2(receiver.points.xy - 1);
-  gl_Position = clip_from_tag(vec3(mix(receiver.min_max_m.xy, receiver.min_max_m.zw, share), 0.0));
+  vec2 share = vec2(gl_VertexID >> 1, gl_InstanceID + (gl_VertexID & 1)) / float(RECEIVER_CELLS);
+  place = mix(receiver.drawn_min_max_m.xy, receiver.drawn_min_max_m.zw, share);
+  gl_Position = clip_from_tag(vec3(place, 0.0));
 }

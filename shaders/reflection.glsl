@@ -1,24 +1,39 @@
 // What a glossy surface mirrors: rays over the GGX lobe meet the object itself, the receiver or the probe.
+#include "lights.glsl"
 #include "rays.glsl"
 #include "surroundings.glsl"
 
 layout(binding = TEXTURE_BRDF) uniform sampler2D brdf_table;  // scale and bias of F0 by (n.v, roughness)
 layout(std430, binding = BINDING_EXIT_RADIANCE) readonly buffer ExitRadianceBlock { float exit_radiance_floats[]; };
+layout(std430, binding = BINDING_DIRECT_LIGHT) readonly buffer DirectLightBlock { float direct_light_floats[]; };
 layout(std430, binding = BINDING_MATERIALS) readonly buffer MaterialBlock { SurfaceMaterial materials[]; };
 
-const float kPi = 3.14159265;
+// Smoother surfaces show the shapes of the lights: those look the whole probe up.
+const float kLeastHighlightRoughness = 0.1;
+
+bool shows_lights_as_highlights(float roughness) {
+  return light_samples.count.x > 0 && roughness >= kLeastHighlightRoughness;
+}
+
+vec3 diffuse_albedo(SurfaceMaterial m, vec3 color) { return m.base_color_metallic.rgb * color * (1.0 - m.base_color_metallic.a); }
+
+vec3 mirror_f0(SurfaceMaterial m, vec3 color) {
+  return mix(vec3(m.dielectric.x), m.base_color_metallic.rgb * color, m.base_color_metallic.a);
+}
+
+float mirror_f90(SurfaceMaterial m) { return mix(m.dielectric.y, 1.0, m.base_color_metallic.a); }
 
 // Split-sum factor of what is mirrored, and the share of light that enters a dielectric.
 vec4 mirror_factor(SurfaceMaterial m, vec3 color, float n_v) {
   vec2 table = texture(brdf_table, vec2(clamp(n_v, 0.0, 1.0), m.emissive_roughness.a)).rg;
-  float metallic = m.base_color_metallic.a;
-  vec3 f0 = mix(vec3(m.dielectric.x), m.base_color_metallic.rgb * color, metallic);
-  float f90 = mix(m.dielectric.y, 1.0, metallic);
-  return vec4(f0 * table.x + f90 * table.y, 1.0 - (m.dielectric.x * table.x + m.dielectric.y * table.y));
+  return vec4(mirror_f0(m, color) * table.x + mirror_f90(m) * table.y, 1.0 - (m.dielectric.x * table.x + m.dielectric.y * table.y));
 }
 
-vec3 exit_radiance_of(uint vertex) {
-  return vec3(exit_radiance_floats[3u * vertex], exit_radiance_floats[3u * vertex + 1u], exit_radiance_floats[3u * vertex + 2u]);
+vec3 exit_radiance_of(uint vertex, vec3 albedo) {
+  uint at = 3u * vertex;
+  vec3 diffuse = vec3(exit_radiance_floats[at], exit_radiance_floats[at + 1u], exit_radiance_floats[at + 2u]);
+  if (light_samples.count.x == 0) return diffuse;
+  return diffuse + albedo * vec3(direct_light_floats[at], direct_light_floats[at + 1u], direct_light_floats[at + 2u]);
 }
 
 // Light that the object sends towards -direction from where a ray met it; its own mirror image is not traced further.
@@ -28,18 +43,19 @@ vec3 object_radiance(RayHit hit, vec3 origin, vec3 direction, float spread) {
   SurfaceMaterial m = materials[t.w];
   vec3 n = normalize(w.x * vertex_vec3(t.x, 1u) + w.y * vertex_vec3(t.y, 1u) + w.z * vertex_vec3(t.z, 1u));
   vec3 color = w.x * vertex_vec3(t.x, 2u) + w.y * vertex_vec3(t.y, 2u) + w.z * vertex_vec3(t.z, 2u);
-  vec3 diffuse = w.x * exit_radiance_of(t.x) + w.y * exit_radiance_of(t.y) + w.z * exit_radiance_of(t.z);
+  vec3 albedo = diffuse_albedo(m, color);
+  vec3 diffuse = w.x * exit_radiance_of(t.x, albedo) + w.y * exit_radiance_of(t.y, albedo) + w.z * exit_radiance_of(t.z, albedo);
   vec4 factor = mirror_factor(m, color, -dot(n, direction));
   float roughness = m.emissive_roughness.a;
-  vec3 mirrored = surroundings(origin + hit.distance_m * direction, reflect(direction, n), spread + roughness * roughness, roughness);
+  vec3 mirrored = surroundings(origin + hit.distance_m * direction, reflect(direction, n), spread + roughness * roughness, roughness, true);
   return diffuse * factor.a + mirrored * factor.rgb + m.emissive_roughness.rgb;
 }
 
-vec3 radiance_along(vec3 origin, vec3 direction, float spread, float roughness) {
+vec3 radiance_along(vec3 origin, vec3 direction, float spread, float roughness, bool with_lights) {
   RayHit nearest = RayHit(uvec4(0u), 1e30, vec2(0.0));
   if (view.options.x > 0) trace(origin, direction, view.probe_in_tag_m.w, nearest);
   if (nearest.distance_m < 1e30) return object_radiance(nearest, origin, direction, spread);
-  return surroundings(origin, direction, spread, roughness);
+  return surroundings(origin, direction, spread, roughness, with_lights);
 }
 
 // Points whose mean is (0.5, 0.5) for any power of two.
@@ -68,8 +84,8 @@ mat3 frame_around(vec3 n) {
 }
 
 // Mean radiance over the lobe around the mirror direction. Each ray stands for its share of the lobe: the probe is read at the
-// roughness of that share.
-vec3 mirrored_radiance(vec3 position, vec3 n, vec3 to_viewer, float roughness) {
+// roughness of that share, without the lights where those are added as highlights.
+vec3 mirrored_radiance(vec3 position, vec3 n, vec3 to_viewer, float roughness, bool with_lights) {
   vec3 mirror = reflect(-to_viewer, n);
   vec3 dx = dFdx(mirror), dy = dFdy(mirror);
   int rays = roughness < 0.1 ? 4 : max(view.options.x, 1);
@@ -88,8 +104,8 @@ vec3 mirrored_radiance(vec3 position, vec3 n, vec3 to_viewer, float roughness) {
     if (above <= 0.0) continue;
     // Smith's shadowing of the ray given the view, G2 / G1 (Heitz 2014), up to terms common to all rays.
     float weight = 2.0 * above / (above + sqrt(alpha * alpha + (1.0 - alpha * alpha) * above * above));
-    sum += weight * radiance_along(origin, normalize(direction), spread, share);
+    sum += weight * radiance_along(origin, normalize(direction), spread, share, with_lights);
     weights += weight;
   }
-  return weights > 0.0 ? sum / weights : probe_radiance(mirror, roughness);
+  return weights > 0.0 ? sum / weights : probe_radiance(mirror, roughness, with_lights);
 }

@@ -1,13 +1,15 @@
 // What lies around the object: the receiver, seen in the frame itself where the frame shows it, and the probe.
 layout(binding = TEXTURE_PROBE) uniform samplerCube probe;         // level by perceptual roughness
+layout(binding = TEXTURE_REST) uniform samplerCube rest;           // the same less the lights
 layout(binding = TEXTURE_PLATE_LIGHT) uniform sampler2D plate_light;  // whole frame, radiance, mip levels
 
 // Over the outer share of the frame the probe takes over from it.
 const float kFrameFade = 0.04;
 
-vec3 probe_radiance(vec3 direction_tag, float roughness) {
-  float level = roughness * float(textureQueryLevels(probe) - 1);
-  return textureLod(probe, mat3(view.light_from_tag) * direction_tag, level).rgb;
+vec3 probe_radiance(vec3 direction_tag, float roughness, bool with_lights) {
+  vec3 direction = mat3(view.light_from_tag) * direction_tag;
+  if (with_lights) return textureLod(probe, direction, roughness * float(textureQueryLevels(probe) - 1)).rgb;
+  return textureLod(rest, direction, roughness * float(textureQueryLevels(rest) - 1)).rgb;
 }
 
 // How much the frame is to be trusted at clip position `clip`: 0 outside it.
@@ -20,9 +22,8 @@ float seen_in_frame(vec4 clip) {
 // Radiance of the plane z = 0 at `point`, blurred over `width_m`; darkened by the object. Where the frame does not show the place, the
 // probe does, from where it was captured.
 vec3 receiver_radiance(vec2 point, float width_m, float roughness) {
-  vec2 cells = (point - receiver.min_max_m.xy) / (receiver.min_max_m.zw - receiver.min_max_m.xy) * vec2(receiver.points.xy - 1);
-  vec3 ratio = shadow_ratio(cells);
-  vec3 from_probe = probe_radiance(normalize(vec3(point, 0.0) - view.probe_in_tag_m.xyz), roughness);
+  vec3 ratio = shadow_ratio(point);
+  vec3 from_probe = probe_radiance(normalize(vec3(point, 0.0) - view.probe_in_tag_m.xyz), roughness, true);
   vec4 clip = clip_from_tag(vec3(point, 0.0));
   float seen = seen_in_frame(clip);
   if (seen == 0.0) return ratio * from_probe;
@@ -33,8 +34,8 @@ vec3 receiver_radiance(vec2 point, float width_m, float roughness) {
 }
 
 // Radiance that arrives at `origin` from `direction` past the object; `spread` is the tangent of the ray's half width.
-vec3 surroundings(vec3 origin, vec3 direction, float spread, float roughness) {
-  if (view.options.y == 0 || direction.z >= 0.0 || origin.z <= 0.0) return probe_radiance(direction, roughness);
+vec3 surroundings(vec3 origin, vec3 direction, float spread, float roughness, bool with_lights) {
+  if (view.options.y == 0 || direction.z >= 0.0 || origin.z <= 0.0) return probe_radiance(direction, roughness, with_lights);
   float distance_m = -origin.z / direction.z;
   return receiver_radiance(origin.xy + distance_m * direction.xy, 2.0 * spread * distance_m, roughness);
 }

@@ -1,0 +1,218 @@
+#include "render/probe_split.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <numeric>
+
+#include "render/light_clusters.hpp"
+#include "render/light_samples.hpp"
+#include "render/parallel.hpp"
+
+namespace catchlight::render {
+namespace {
+
+constexpr int kMaxRings = 360;  // cells of half a degree
+/// Display codes are about the 2.2nd root of light: an error of `tolerance` of white is this many times as large a share of the
+/// light.
+constexpr double kDisplayGamma = 2.2;
+/// Finer than this no shadow map tells samples apart: an eighth of the sun's disc.
+constexpr double kFinestSample_sr = 8e-6;
+/// Texels are divided until each sample has as many pieces to be cut from.
+constexpr int kPiecesPerSample = 8;
+
+double luminance_of(const float* radiance) {
+  return glm::dot(kLuminanceWeights, glm::dvec3(radiance[0], radiance[1], radiance[2]));
+}
+
+// Luminance gathered in cells.
+struct Brightness {
+  SphereGrid grid;
+  std::vector<int> cell_of;  // a texel; kNoCluster outside the layout
+  std::vector<double> solid_angle_sr, luminance;
+};
+
+Brightness gather(const Probe& probe) {
+  const int width = probe.image.width, height = probe.image.height;
+  // No finer than the probe, or cells between its texels would tear lights apart.
+  const int rings = std::clamp(static_cast<int>(std::sqrt(width * static_cast<double>(height)) / 3), 6, kMaxRings);
+  Brightness sky{SphereGrid(rings), std::vector<int>(static_cast<std::size_t>(width) * height, kNoCluster), {}, {}};
+  parallel_for(height, 0, [&](std::size_t row) {
+    for (int x = 0; x < width; ++x) {
+      const auto direction = direction_from_texel(probe.layout, width, height, x, static_cast<double>(row));
+      if (direction) sky.cell_of[row * width + x] = sky.grid.cell_of(*direction);
+    }
+  });
+  sky.solid_angle_sr.resize(sky.grid.cells());
+  sky.luminance.resize(sky.grid.cells());
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const int cell = sky.cell_of[static_cast<std::size_t>(y) * width + x];
+      if (cell == kNoCluster) continue;
+      const double solid_angle = texel_solid_angle(probe.layout, width, height, x, y);
+      sky.solid_angle_sr[cell] += solid_angle;
+      sky.luminance[cell] += solid_angle * luminance_of(probe.image.pixel(x, y));
+    }
+  }
+  for (int cell = 0; cell < sky.grid.cells(); ++cell)
+    if (sky.solid_angle_sr[cell] > 0) sky.luminance[cell] /= sky.solid_angle_sr[cell];
+  return sky;
+}
+
+double flux_below(const Brightness& sky, double limit) {
+  double sum = 0;
+  for (std::size_t cell = 0; cell < sky.luminance.size(); ++cell)
+    sum += sky.solid_angle_sr[cell] * std::min(sky.luminance[cell], limit);
+  return sum;
+}
+
+// The largest t = contrast * mean(min(luminance, t)).
+double find_threshold(const Brightness& sky, double total_flux) {
+  double threshold = kLightContrast * total_flux / (4 * glm::pi<double>());
+  for (int i = 0; i < 100; ++i) {
+    const double next = kLightContrast * flux_below(sky, threshold) / (4 * glm::pi<double>());
+    if (next > 0.999 * threshold) break;
+    threshold = next;
+  }
+  return threshold;
+}
+
+// Share of a cluster's energy that `bands` bands hold: near 0 for a small light, near 1 for one wider than they resolve.
+std::vector<double> energy_held(const Brightness& sky, const LightClusters& clusters, double threshold, int bands) {
+  std::vector<double> energy(clusters.count), held(clusters.count);
+  const int count = sh_count(bands);
+  std::vector<double> coefficients(static_cast<std::size_t>(clusters.count) * count), basis(count);
+  std::vector<glm::dvec3> middle(sky.grid.cells());
+  for (int cell = 0; cell < sky.grid.cells(); ++cell) {
+    const int cluster = clusters.cluster_of[cell];
+    if (cluster == kNoCluster) continue;
+    const double light = (sky.luminance[cell] - threshold) * sky.solid_angle_sr[cell];
+    energy[cluster] += light * light / sky.solid_angle_sr[cell];
+    evaluate_sh(sky.grid.middle_of(cell), bands, std::span<double>(basis));
+    for (int i = 0; i < count; ++i) coefficients[static_cast<std::size_t>(cluster) * count + i] += light * basis[i];
+  }
+  for (int cluster = 0; cluster < clusters.count; ++cluster) {
+    for (int i = 0; i < count; ++i) held[cluster] += std::pow(coefficients[static_cast<std::size_t>(cluster) * count + i], 2);
+    held[cluster] = std::min(held[cluster] / energy[cluster], 1.0);
+  }
+  return held;
+}
+
+// The share (ProbeLight::share) of each cluster, 0 where splitting it off would not be seen.
+std::vector<double> shares_that_pay(const Brightness& sky, const LightClusters& clusters, double threshold, double total_flux,
+                                    const SplitOptions& options) {
+  std::vector<double> shares(clusters.count);
+  for (int cell = 0; cell < sky.grid.cells(); ++cell) {
+    const int cluster = clusters.cluster_of[cell];
+    if (cluster != kNoCluster) shares[cluster] += (sky.luminance[cell] - threshold) * sky.solid_angle_sr[cell];
+  }
+  const std::vector<double> held = energy_held(sky, clusters, threshold, options.bands);
+  for (int cluster = 0; cluster < clusters.count; ++cluster) {
+    shares[cluster] *= 4 / total_flux;  // an average surface's irradiance is a quarter of the flux
+    if (shares[cluster] * std::sqrt(1 - held[cluster]) < kDisplayGamma * options.tolerance) shares[cluster] = 0;
+  }
+  return shares;
+}
+
+// Samples per light in proportion to its share, until their steps cannot be seen or the budget is spent.
+std::vector<int> sample_counts(const std::vector<ProbeLight>& lights, const SplitOptions& options) {
+  double step = kDisplayGamma * options.tolerance;
+  const auto counts_for = [&](double each) {
+    std::vector<int> counts;
+    for (const ProbeLight& light : lights)
+      counts.push_back(static_cast<int>(
+          std::ceil(std::clamp(light.share / each, 1.0, std::max(light.solid_angle_sr / kFinestSample_sr, 1.0)))));
+    return counts;
+  };
+  std::vector<int> counts = counts_for(step);
+  while (std::accumulate(counts.begin(), counts.end(), 0) > std::max(options.max_samples, static_cast<int>(lights.size())))
+    counts = counts_for(step *= 1.05);
+  return counts;
+}
+
+struct Cluster {
+  double share = 0;
+  std::vector<glm::ivec2> texels;
+};
+
+// Clusters worth a light, brightest first, with their texels brighter than the threshold.
+std::vector<Cluster> worthy_clusters(const Probe& probe, const Brightness& sky, double threshold, double total_flux,
+                                     const SplitOptions& options) {
+  const double negligible = kDisplayGamma * options.tolerance * total_flux / 4;
+  const LightClusters clusters = cluster_lights(sky.grid, sky.luminance, sky.solid_angle_sr, threshold, negligible);
+  const std::vector<double> shares = shares_that_pay(sky, clusters, threshold, total_flux, options);
+  std::vector<Cluster> found(clusters.count);
+  for (int i = 0; i < clusters.count; ++i) found[i].share = shares[i];
+  for (int y = 0; y < probe.image.height; ++y) {
+    for (int x = 0; x < probe.image.width; ++x) {
+      const int cell = sky.cell_of[static_cast<std::size_t>(y) * probe.image.width + x];
+      if (cell == kNoCluster || clusters.cluster_of[cell] == kNoCluster) continue;
+      if (luminance_of(probe.image.pixel(x, y)) > threshold) found[clusters.cluster_of[cell]].texels.emplace_back(x, y);
+    }
+  }
+  std::erase_if(found, [](const Cluster& cluster) { return cluster.share == 0 || cluster.texels.empty(); });
+  std::ranges::stable_sort(found, std::greater{}, &Cluster::share);
+  if (found.size() > static_cast<std::size_t>(options.max_samples)) found.resize(options.max_samples);
+  return found;
+}
+
+// Cuts the cluster's texels in `rest` down to the threshold. What it takes, in at least `wanted` pieces.
+std::vector<LightPiece> take_out(const Cluster& cluster, double threshold, int wanted, Probe& rest) {
+  const int width = rest.image.width, height = rest.image.height;
+  const int across = static_cast<int>(std::ceil(std::sqrt(wanted / static_cast<double>(cluster.texels.size()))));
+  std::vector<LightPiece> pieces;
+  for (const glm::ivec2& texel : cluster.texels) {
+    float* radiance = rest.image.pixel(texel.x, texel.y);
+    const float kept = static_cast<float>(threshold / luminance_of(radiance));
+    const glm::dvec3 before(radiance[0], radiance[1], radiance[2]);
+    for (int c = 0; c < 3; ++c) radiance[c] *= kept;
+    const glm::dvec3 taken = before - glm::dvec3(radiance[0], radiance[1], radiance[2]);
+    const double solid_angle = texel_solid_angle(rest.layout, width, height, texel.x, texel.y) / (across * across);
+    for (int i = 0; i < across * across; ++i) {
+      const glm::dvec2 within = (glm::dvec2(i % across, i / across) + 0.5) / static_cast<double>(across) - 0.5;
+      const auto direction = direction_from_texel(rest.layout, width, height, texel.x + within.x, texel.y + within.y);
+      const auto middle = direction_from_texel(rest.layout, width, height, texel.x, texel.y);
+      pieces.push_back({direction.value_or(*middle), solid_angle * taken, solid_angle});
+    }
+  }
+  return pieces;
+}
+
+}  // namespace
+
+SplitProbe split_lights(const Probe& probe, const SplitOptions& options) {
+  SplitProbe split{{}, probe, 0};
+  const Brightness sky = gather(probe);
+  const double total_flux = flux_below(sky, INFINITY);
+  if (!(total_flux > 0) || options.max_samples < 1) return split;
+  split.threshold = find_threshold(sky, total_flux);
+  const std::vector<Cluster> clusters = worthy_clusters(probe, sky, split.threshold, total_flux, options);
+  for (const Cluster& cluster : clusters) {
+    ProbeLight& light = split.lights.emplace_back();
+    light.share = cluster.share;
+    for (const glm::ivec2& texel : cluster.texels)
+      light.solid_angle_sr += texel_solid_angle(probe.layout, probe.image.width, probe.image.height, texel.x, texel.y);
+  }
+  const std::vector<int> counts = sample_counts(split.lights, options);
+  for (std::size_t i = 0; i < clusters.size(); ++i) {
+    const std::vector<LightPiece> pieces = take_out(clusters[i], split.threshold, kPiecesPerSample * counts[i], split.rest);
+    const LightSample whole = median_cut(pieces, 1).front();
+    split.lights[i].direction = whole.direction;
+    split.lights[i].irradiance = whole.irradiance;
+    split.lights[i].samples = median_cut(pieces, counts[i]);
+  }
+  return split;
+}
+
+std::vector<LightSample> samples_of(const SplitProbe& split, const glm::dmat3& rotation) {
+  std::vector<LightSample> samples;
+  for (const ProbeLight& light : split.lights) {
+    for (LightSample sample : light.samples) {
+      sample.direction = rotation * sample.direction;
+      samples.push_back(sample);
+    }
+  }
+  return samples;
+}
+
+}  // namespace catchlight::render
