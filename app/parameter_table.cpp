@@ -54,7 +54,7 @@ std::vector<Parameter> make_table() {
 
       {"receiver.plane", "", "The real surface that catches the shadow: the tag's plane, or none.",
        ChoiceKind{[](Scene& s) -> std::string& { return s.receiver.plane; }, {"tag", "none"}}},
-      {"receiver.albedo", "", "Reflectance (linear RGB) of that surface.",
+      {"receiver.albedo", "", "Reflectance (linear RGB) of that surface, where no probe fixed to the tag shows it.",
        VectorKind{[](Scene& s) -> glm::dvec3& { return s.receiver.albedo; }, 0, 1}},
 
       {"probe.image", "", "Light probe: OpenEXR or Radiance HDR, scene-linear Rec. 709.",

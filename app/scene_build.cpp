@@ -89,18 +89,17 @@ int choose_bands(const SceneSettings& settings, std::size_t vertices, std::vecto
   return bands;
 }
 
-/// By hand, or as the probe saw it. A probe that turns with the camera shows another surface than the tag's in most frames.
+/// As the probe saw it. One that turns with the camera shows another surface than the tag's in most frames.
 render::ReceiverAlbedo choose_receiver_albedo(BuiltScene& built, const SceneSettings& settings) {
   std::optional<render::ReceiverAlbedo> seen;
-  const bool by_hand = settings.is_by_hand("receiver.albedo");
-  if (!by_hand && !built.light_follows_camera)
+  if (!built.light_follows_camera)
     seen = render::albedo_from_probe(built.probe, built.light_from_probe, built.scene.probe_in_tag_m);
   if (seen) {
     built.plan.push_back({"receiver albedo", "seen", "the probe shows the receiver"});
     return *seen;
   }
-  if (by_hand || built.light_follows_camera) {
-    built.plan.push_back({"receiver albedo", "constant", origin_of(settings, "receiver.albedo")});
+  if (built.light_follows_camera) {
+    built.plan.push_back({"receiver albedo", "constant", "the probe shows another surface"});
     return render::constant_albedo(settings.receiver.albedo);
   }
   built.plan.push_back(

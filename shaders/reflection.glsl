@@ -37,7 +37,7 @@ vec3 exit_radiance_of(uint vertex, vec3 albedo) {
 }
 
 // Light that the object sends towards -direction from where a ray met it; its own mirror image is not traced further.
-vec3 object_radiance(RayHit hit, vec3 origin, vec3 direction, float spread) {
+vec3 object_radiance(RayHit hit, vec3 origin, vec3 direction, float spread, float share) {
   vec3 w = vec3(1.0 - hit.weights.x - hit.weights.y, hit.weights);
   uvec4 t = hit.triangle;
   SurfaceMaterial m = materials[t.w];
@@ -47,14 +47,16 @@ vec3 object_radiance(RayHit hit, vec3 origin, vec3 direction, float spread) {
   vec3 diffuse = w.x * exit_radiance_of(t.x, albedo) + w.y * exit_radiance_of(t.y, albedo) + w.z * exit_radiance_of(t.z, albedo);
   vec4 factor = mirror_factor(m, color, -dot(n, direction));
   float roughness = m.emissive_roughness.a;
-  vec3 mirrored = surroundings(origin + hit.distance_m * direction, reflect(direction, n), spread + roughness * roughness, roughness, true);
+  // The ray stands for a bundle, which the second surface spreads further.
+  float both = sqrt(sqrt(pow(roughness, 4.0) + pow(share, 4.0)));
+  vec3 mirrored = surroundings(origin + hit.distance_m * direction, reflect(direction, n), spread + roughness * roughness, both, true);
   return diffuse * factor.a + mirrored * factor.rgb + m.emissive_roughness.rgb;
 }
 
 vec3 radiance_along(vec3 origin, vec3 direction, float spread, float roughness, bool with_lights) {
   RayHit nearest = RayHit(uvec4(0u), 1e30, vec2(0.0));
   if (view.options.x > 0) trace(origin, direction, view.probe_in_tag_m.w, nearest);
-  if (nearest.distance_m < 1e30) return object_radiance(nearest, origin, direction, spread);
+  if (nearest.distance_m < 1e30) return object_radiance(nearest, origin, direction, spread, roughness);
   return surroundings(origin, direction, spread, roughness, with_lights);
 }
 
