@@ -267,7 +267,6 @@ struct DirectRefiner::Impl {
         edges += residual.edge;
         inliers += residual.edge && std::abs(residual.code) < 3 * fit.noise;
       }
-    result.pixels = static_cast<int>(index);
     if (!(edges > 0) || !(n > 0)) return std::nullopt;
     result.inlier_share = inliers / edges;
     result.covered_share = 1 - fit.kept_share;
