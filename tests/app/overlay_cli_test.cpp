@@ -211,7 +211,7 @@ TEST_F(OverlayCommand, TagThatNeverAppearsPassesTheFootageThrough) {
   const std::string copy = copied_recording(3);
   const CommandResult result = overlay(copy, folder_.path("ours_%04d.png"), {"--tag.id", "17"});
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_THAT(result.error, HasSubstr("3 frames"));
+  EXPECT_EQ(count_of("catchlight: warning: the tag was never found in 3 frames", result.error), 1);
   run_shell("ffmpeg -v error -nostdin -i " + copy + "/video.mp4 -sws_flags accurate_rnd+full_chroma_int -start_number 0 " +
             folder_.path("plate_%04d.png"));
   for (const char* number : {"0000", "0001", "0002"}) {
@@ -219,6 +219,12 @@ TEST_F(OverlayCommand, TagThatNeverAppearsPassesTheFootageThrough) {
                   plate = cv::imread(folder_.path("plate_" + std::string(number) + ".png"));
     EXPECT_EQ(cv::norm(ours, plate, cv::NORM_INF), 0);
   }
+}
+
+TEST_F(OverlayCommand, LostFramesOfAGivenTrackAreWarnedOfOnce) {
+  const std::string copy = copied_recording(3), track = folder_.path("track.csv");
+  ASSERT_EQ(run_catchlight({"track", copy, "-o", track, "--frames", "0:1", "--quiet"}).exit_code, 0);
+  EXPECT_EQ(count_of("catchlight: warning: no tag in 2 of 3 frames", overlay(copy, out_, {"--track", track}).error), 1);
 }
 
 TEST_F(OverlayCommand, OutputOverItsOwnInputIsRefused) {
