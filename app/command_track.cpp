@@ -38,6 +38,7 @@ void track(const Options& options, Context& context) {
 
   Report report;
   const OverlayResult result = tracked(options, recording, camera, *source, range, context, report);
+  warn_of_lost_frames(report, context.log);
   write_track(options.output, result.rows, {camera, recording.scene, source->info().is_sequence}, options.overwrite,
               context.log.warning_handler());
   report.warnings = context.log.warnings();

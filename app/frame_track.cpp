@@ -5,9 +5,9 @@
 #include "app/exposure.hpp"
 #include "app/linear_patch.hpp"
 #include "tracking/photometry.hpp"
+#include "tracking/planar_pose.hpp"
 #include "tracking/pose_covariance.hpp"
 #include "tracking/recorded_path.hpp"
-#include "tracking/tag_search.hpp"
 #include "tracking/tracker.hpp"
 
 namespace catchlight::app {

@@ -2,7 +2,10 @@
 
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
+#include <utility>
 
 #include "catchlight.hpp"
 
@@ -11,10 +14,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// In the same folder, so that renaming never copies; with the extension, which writers go by.
+/// In the same folder, so that renaming never copies; hidden; with the extension, which writers go by. Another process may write
+/// the same file at the same time.
 fs::path pending_path_for(const fs::path& path) {
-  const std::string name = '.' + path.stem().string() + '.' + std::to_string(getpid()) + path.extension().string();
-  return path.parent_path() / name;
+  const std::string partial = ".partial-" + std::to_string(getpid());
+  return path.parent_path() / ('.' + path.stem().string() + partial + path.extension().string());
 }
 
 }  // namespace
@@ -38,19 +42,28 @@ void write_text_file(const std::string& path, std::string_view text, bool overwr
   pending.commit();
 }
 
-PendingFile::PendingFile(const std::string& path, bool overwrite) : path_(path), pending_(pending_path_for(path_)) {
+PendingFile::PendingFile(const std::string& path, bool overwrite) : path_(path) {
   check_output_path(path, overwrite);
+  const fs::path pending = pending_path_for(path_);
+  errno = 0;
+  if (!std::ofstream(pending, std::ios::binary | std::ios::trunc))
+    throw Error(path + ": cannot write into its folder: " + std::strerror(errno) + "; choose another output");
+  pending_ = pending;
 }
+
+PendingFile::PendingFile(PendingFile&& other) noexcept
+    : path_(std::move(other.path_)), pending_(std::exchange(other.pending_, {})) {}
 
 PendingFile::~PendingFile() {
   std::error_code ignored;
-  fs::remove(pending_, ignored);
+  if (!pending_.empty()) fs::remove(pending_, ignored);
 }
 
 void PendingFile::commit() {
   std::error_code error;
   fs::rename(pending_, path_, error);
   if (error) throw Error(path_.string() + ": cannot be put in place: " + error.message());
+  pending_.clear();
 }
 
 }  // namespace catchlight::app

@@ -54,18 +54,34 @@ void count(const TrackRow& row, Report& report) {
   }
 }
 
-void warn_of_lost_frames(const Report& report, Log& log) {
-  const std::string of_frames = " of " + std::to_string(report.frames) + " frames";
-  if (report.frames > 0 && report.lost_frames == report.frames)
-    log.warn("the tag was never found in " + std::to_string(report.frames) +
-             " frames, which pass through untouched; check tag.family, tag.id and that the tag is sharp and at least 20 px wide");
-  else if (report.lost_frames > 0)
-    log.warn("no tag in " + std::to_string(report.lost_frames) + of_frames + ", which pass through untouched");
-}
-
 double frames_per_second(std::int64_t frames, std::chrono::steady_clock::time_point since) {
   const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
   return elapsed_s > 0 ? static_cast<double>(frames) / elapsed_s : 0;
+}
+
+/// Far enough past the end that the last poses know what comes after them.
+FrameRange with_a_second_more(FrameRange range, const SourceInfo& info) {
+  const auto second = static_cast<std::int64_t>(std::max(info.frame_rate, 1.0));
+  range.end = std::min(range.end, FrameRange{}.end - second) + second;
+  return range;
+}
+
+/// Hands on every frame from the source's first to the range's end. Returns what is known of damage that ended the footage.
+template <class PerFrame>
+std::optional<std::string> read_frames(MediaSource& source, const FrameRange& range, const char* task, Log& log,
+                                       StageTimer& stages, PerFrame per_frame) {
+  Progress progress(log, task, frames_to_read(source.info(), range));
+  std::int64_t read = 0;
+  try {
+    while (const std::optional<Frame> frame = stages.measure("decode", [&] { return source.read(); })) {
+      if (frame->number() >= range.end) break;
+      per_frame(*frame);
+      progress.update(++read);
+    }
+  } catch (const DamagedMedia& damaged) {
+    return damaged.what();
+  }
+  return std::nullopt;
 }
 
 /// Decodes and tracks from the first frame to the range's end, and hands on what is in the range.
@@ -73,24 +89,15 @@ template <class PerFrame>
 OverlayResult run(MediaSource& source, FrameTrack& track, const FrameRange& range, const char* task, Log& log, Report& report,
                   PerFrame per_frame) {
   OverlayResult result;
-  Progress progress(log, task, frames_to_read(source.info(), range));
   const auto start = std::chrono::steady_clock::now();
-  std::int64_t read = 0;
-  try {
-    while (const std::optional<Frame> frame = report.stages.measure("decode", [&] { return source.read(); })) {
-      if (frame->number() >= range.end) break;
-      const TrackRow row =
-          track.is_tracking() ? report.stages.measure("track", [&] { return track.row(*frame); }) : track.row(*frame);
-      if (range.contains(frame->number())) {
-        per_frame(*frame, row);
-        count(row, report);
-        result.rows.push_back(row);
-      }
-      progress.update(++read);
-    }
-  } catch (const DamagedMedia& damaged) {
-    result.damage = damaged.what();
-  }
+  result.damage = read_frames(source, range, task, log, report.stages, [&](const Frame& frame) {
+    const TrackRow row =
+        track.is_tracking() ? report.stages.measure("track", [&] { return track.row(frame); }) : track.row(frame);
+    if (!range.contains(frame.number())) return;
+    per_frame(frame, row);
+    count(row, report);
+    result.rows.push_back(row);
+  });
   report.fps = frames_per_second(report.frames, start);
   return result;
 }
@@ -110,6 +117,15 @@ FrameRange parse_frame_range(const std::string& text) {
   if (colon + 1 < text.size()) range.end = parse_frame_number(view.substr(colon + 1), text);
   if (range.begin >= range.end) throw UsageError("--frames " + text + ": the range is empty; expected A:B with A below B");
   return range;
+}
+
+void warn_of_lost_frames(const Report& report, Log& log) {
+  const std::string of_frames = " of " + std::to_string(report.frames) + " frames";
+  if (report.frames > 0 && report.lost_frames == report.frames)
+    log.warn("the tag was never found in " + std::to_string(report.frames) +
+             " frames, which pass through untouched; check tag.family, tag.id and that the tag is sharp and at least 20 px wide");
+  else if (report.lost_frames > 0)
+    log.warn("no tag in " + std::to_string(report.lost_frames) + of_frames + ", which pass through untouched");
 }
 
 Stage build_stage(const SceneSettings& scene, Log& log, Report& report) {
@@ -144,38 +160,25 @@ OverlayResult run_overlay(MediaSource& source, FrameTrack& track, Stage& stage, 
     throw Error("no frame of the footage lies in --frames; it has " + std::to_string(source.info().frame_count.value_or(0)) +
                 " from " + std::to_string(source.info().first_number));
   output.finish();
-  if (track.is_tracking()) warn_of_lost_frames(report, log);
+  warn_of_lost_frames(report, log);
   return result;
 }
 
 OverlayResult run_track(MediaSource& source, FrameTrack& track, const FrameRange& range, Log& log, Report& report) {
-  const OverlayResult result = run(source, track, range, "track", log, report, [](const Frame&, const TrackRow&) {});
-  warn_of_lost_frames(report, log);
-  return result;
+  return run(source, track, range, "track", log, report, [](const Frame&, const TrackRow&) {});
 }
 
 OverlayResult solve_track(MediaSource& source, const CameraModel& camera, const SceneSettings& scene, const FrameRange& range,
                           Log& log, Report& report) {
   OverlayResult result;
   PathTrack path(camera, scene);
-  Progress progress(log, "track", frames_to_read(source.info(), range));
-  const auto lookahead = static_cast<std::int64_t>(std::max(source.info().frame_rate, 1.0));
   const auto start = std::chrono::steady_clock::now();
-  std::int64_t read = 0;
-  try {
-    while (const std::optional<Frame> frame = report.stages.measure("decode", [&] { return source.read(); })) {
-      if (range.end != FrameRange{}.end && frame->number() >= range.end + lookahead) break;
-      report.stages.measure("track", [&] { path.add(*frame); });
-      progress.update(++read);
-    }
-  } catch (const DamagedMedia& damaged) {
-    result.damage = damaged.what();
-  }
+  const auto add = [&](const Frame& frame) { report.stages.measure("track", [&] { path.add(frame); }); };
+  result.damage = read_frames(source, with_a_second_more(range, source.info()), "track", log, report.stages, add);
   for (const TrackRow& row : report.stages.measure("solve path", [&] { return path.solve(); }))
     if (range.contains(row.frame)) result.rows.push_back(row);
   for (const TrackRow& row : result.rows) count(row, report);
   report.fps = frames_per_second(report.frames, start);
-  warn_of_lost_frames(report, log);
   return result;
 }
 

@@ -44,6 +44,9 @@ struct OverlayResult {
   std::optional<std::string> damage;  ///< the footage broke off: what is known about it
 };
 
+/// How many frames of a finished job passed through untouched, and what to check where all did; nothing where none did.
+void warn_of_lost_frames(const Report& report, Log& log);
+
 /// Reads from the source's first frame on, so that the tracker's memory does not depend on the range, and renders the range.
 /// Finishes the output, after damaged footage too. Adds counts, stages and warnings to the report.
 OverlayResult run_overlay(MediaSource& source, FrameTrack& track, Stage& stage, const SceneSettings& scene,

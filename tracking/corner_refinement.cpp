@@ -9,7 +9,6 @@
 namespace catchlight::tracking {
 namespace {
 
-using Quad = std::array<glm::dvec2, 4>;
 using LinearTable = std::array<double, 256>;
 
 constexpr double kReachCells = 0.7;       ///< of the uniform cell on either side; beyond it the blur of the next cell shows

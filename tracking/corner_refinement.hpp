@@ -4,6 +4,7 @@
 #include <array>
 
 #include "tracking/families.hpp"
+#include "tracking/planar_pose.hpp"
 #include "tracking/tracker.hpp"
 
 namespace catchlight::tracking {
@@ -11,13 +12,12 @@ namespace catchlight::tracking {
 /// A lens blurs light, the camera encodes it afterwards: the middle of an edge in codes is not its middle in light (0.27 px
 /// off in sRGB). So codes are made linear, and each outer edge is fitted there, as a straight line in ideal pixels.
 struct RefinedCorners {
-  std::array<glm::dvec2, 4> corners_px{};  ///< as seen (distorted), in the order they were given
-  std::array<bool, 4> edge_refined{};      ///< edge i joins corners i and i + 1; false: kept as it was given
-  std::array<double, 4> edge_blur_px{};    ///< the camera's blur across each refined edge
+  Quad corners_px{};                     ///< as seen (distorted), in the order they were given
+  std::array<bool, 4> edge_refined{};    ///< edge i joins corners i and i + 1; false: kept as it was given
+  std::array<double, 4> edge_blur_px{};  ///< the camera's blur across each refined edge
 };
 
 /// `corners_px` within about 1 px of the truth, as the detector gives them.
-RefinedCorners refine_corners(const LumaView& luma, const CameraModel& camera, const std::array<glm::dvec2, 4>& corners_px,
-                              const TagLayout& layout);
+RefinedCorners refine_corners(const LumaView& luma, const CameraModel& camera, const Quad& corners_px, const TagLayout& layout);
 
 }  // namespace catchlight::tracking

@@ -93,7 +93,7 @@ Inverted inverted_cells(const CameraModel& camera, const ResponseTable& response
       const auto index = static_cast<std::size_t>(row * cells + column);
       if (counts[index] == 0) continue;
       const double seen = sums[index] / counts[index];
-      const auto ink = part.pattern->cell(column, row);
+      const auto ink = part.pattern->white(column, row);
       result.to_white += ink == 0.0f && seen > white_code;
       result.to_black += ink == 1.0f && seen < black_code;
     }

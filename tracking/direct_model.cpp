@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tracking/rotation.hpp"
+#include "tracking/statistics.hpp"
 #include "tracking/tag_view.hpp"
 
 namespace catchlight::tracking {
@@ -86,12 +87,6 @@ void shared_gradient(const Sampled& sampled, const CameraModel& camera, const gl
   gradient[6] = scale * second[0][0] / 2;
   gradient[7] = scale * second[1][0];
   gradient[8] = scale * second[1][1] / 2;
-}
-
-double quantile(std::vector<double>& values, double share) {
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
 }
 
 void add_to(NormalEquations& equations, const Sums& sums) {
@@ -213,8 +208,8 @@ bool DirectModel::guess_light(DirectParameters& at) const {
     }
     if (whites.empty() || blacks.empty()) return false;
     // Of the lighter half and the darker half: what the blur mixes lies in the other halves.
-    at.light[i].black = response_->linear_of(quantile(blacks, 0.25));
-    at.light[i].gain = response_->linear_of(quantile(whites, 0.75)) - at.light[i].black;
+    at.light[i].black = response_->linear_of(quantile(std::move(blacks), 0.25));
+    at.light[i].gain = response_->linear_of(quantile(std::move(whites), 0.75)) - at.light[i].black;
     if (!(at.light[i].gain > 0)) return false;
   }
   return true;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <opencv2/core.hpp>
-#include <span>
+#include <optional>
 #include <vector>
 
 #include "tracking/response_table.hpp"

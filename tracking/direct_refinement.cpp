@@ -5,9 +5,9 @@
 
 #include "tracking/cover.hpp"
 #include "tracking/direct_model.hpp"
-#include "tracking/lens.hpp"
+#include "tracking/mirrored_pose.hpp"
 #include "tracking/planar_pose.hpp"
-#include "tracking/rotation.hpp"
+#include "tracking/statistics.hpp"
 
 namespace catchlight::tracking {
 namespace {
@@ -34,19 +34,13 @@ std::vector<Residual> every(const std::vector<Residual>& residuals, std::size_t 
   return some;
 }
 
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Of the edge pixels: plateaus would hide that edges are off.
 double robust_noise(const std::vector<Residual>& residuals, double least) {
   std::vector<double> sizes;
   sizes.reserve(residuals.size());
   for (const Residual& residual : residuals)
     if (residual.known && residual.edge) sizes.push_back(std::abs(residual.code));
-  return sizes.empty() ? least : std::max(least, 1.4826 * median(sizes));
+  return sizes.empty() ? least : std::max(least, 1.4826 * median(std::move(sizes)));
 }
 
 /// Zero-mean Gaussian priors on the blur's change and the light's slope. An even light has no slope at all.
@@ -78,50 +72,6 @@ double moved_px(const CameraModel& camera, const DirectParameters& from, const D
   const glm::dmat3 turn = to.camera_from_target.rotation - from.camera_from_target.rotation;
   const double moved_m = glm::length(shift_m) + reach_m * std::max(glm::length(turn[0]), glm::length(turn[1]));
   return camera.fx_px * moved_m / to.camera_from_target.translation_m.z;
-}
-
-/// A square that stands for a flat target when its two planar poses are sought.
-struct PlanarSquare {
-  glm::dvec3 center_m;
-  double size_m;
-};
-
-/// Empty for tags that are not all in the first one's plane: such a board has only one pose.
-std::optional<PlanarSquare> planar_square(const std::vector<BundledTag>& tags) {
-  constexpr double kFlat = 1e-3;  // of a tag's size
-  glm::dvec3 low(1e9), high(-1e9);
-  for (const BundledTag& tag : tags)
-    for (const glm::dvec3& corner_m : tag_corners_m(tag.size_m)) {
-      const glm::dvec3 point_m = tag.tag_from_this * corner_m;
-      if (std::abs(point_m.z) > kFlat * tag.size_m) return std::nullopt;
-      low = glm::min(low, point_m);
-      high = glm::max(high, point_m);
-    }
-  return PlanarSquare{(low + high) / 2.0, std::max(high.x - low.x, high.y - low.y)};
-}
-
-/// The pose that shows the square's corners in nearly the same places, and how far from them, rms, where that is known.
-std::optional<PoseHypothesis> mirrored(const CameraModel& camera, const PlanarSquare& square,
-                                       const RigidTransform& camera_from_tag) {
-  const RigidTransform tag_from_square{glm::dmat3(1.0), square.center_m};
-  std::array<glm::dvec2, 4> corners_px;
-  const auto corners_m = tag_corners_m(square.size_m);
-  for (int i = 0; i < 4; ++i) {
-    const auto corner_px = project_px(camera, camera_from_tag * (tag_from_square * corners_m[i]));
-    if (!corner_px) return std::nullopt;
-    corners_px[i] = *corner_px;
-  }
-  const auto poses = planar_poses(camera, corners_px, square.size_m);
-  if (poses.size() == 2) return PoseHypothesis{poses[1].camera_from_tag * inverse(tag_from_square), poses[1].reprojection_rms_px};
-  // Exact corners lead both solutions to one minimum where the view is nearly frontal; noisy pixels may still have two.
-  const RigidTransform camera_from_square = camera_from_tag * tag_from_square;
-  const glm::dvec3 normal = camera_from_square.rotation[2], sight = -glm::normalize(camera_from_square.translation_m);
-  const glm::dvec3 half_turn = glm::cross(normal, sight);  // its length is the sine of the tilt
-  const double tilt = std::atan2(glm::length(half_turn), glm::dot(normal, sight));
-  if (!(glm::length(half_turn) > 1e-6)) return std::nullopt;
-  const RigidTransform turned{rotation_matrix(glm::normalize(half_turn) * (2 * tilt)) * camera_from_square.rotation,
-                              camera_from_square.translation_m};
-  return PoseHypothesis{turned * inverse(tag_from_square), 0};
 }
 
 }  // namespace
@@ -317,7 +267,6 @@ struct DirectRefiner::Impl {
         edges += residual.edge;
         inliers += residual.edge && std::abs(residual.code) < 3 * fit.noise;
       }
-    result.pixels = static_cast<int>(index);
     if (!(edges > 0) || !(n > 0)) return std::nullopt;
     result.inlier_share = inliers / edges;
     result.covered_share = 1 - fit.kept_share;

@@ -4,7 +4,6 @@
 #include <array>
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "tracking/tracker.hpp"
@@ -26,7 +25,6 @@ struct DirectFit {
   double inlier_share = 0;                    ///< of the other edge pixels, that fit within 3 standard deviations
   double explained = 0;                       ///< share of the inliers' variance that the model explains, 0 to 1
   double log_likelihood = 0;                  ///< comparable among the fits of one call
-  int pixels = 0;
 };
 
 struct DirectStart {

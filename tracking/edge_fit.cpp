@@ -6,6 +6,8 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "tracking/statistics.hpp"
+
 namespace catchlight::tracking {
 namespace {
 
@@ -53,12 +55,6 @@ Modelled model(const Vector& p, const EdgePixel& pixel) {
   return result;
 }
 
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Plateaus from the outer halves of either side.
 std::optional<Vector> first_guess(std::span<const EdgePixel> pixels) {
   double reach = 0;
@@ -69,7 +65,7 @@ std::optional<Vector> first_guess(std::span<const EdgePixel> pixels) {
     if (pixel.across_px > reach / 2) plus.push_back(pixel.value);
   }
   if (minus.empty() || plus.empty()) return std::nullopt;
-  const double low = median(minus), high = median(plus);
+  const double low = median(std::move(minus)), high = median(std::move(plus));
   Vector p = Vector::zeros();
   p(kLogBlur) = std::log(0.7);  // a sharp camera's; the fit converges from it for blurs of 0.3 to 4 px
   p(kMiddleStart) = p(kMiddleEnd) = (low + high) / 2;
@@ -82,7 +78,7 @@ double robust_scale(const Vector& p, std::span<const EdgePixel> pixels) {
   std::vector<double> sizes;
   sizes.reserve(pixels.size());
   for (const EdgePixel& pixel : pixels) sizes.push_back(std::abs(pixel.value - model(p, pixel).value));
-  return 1.4826 * median(sizes);
+  return 1.4826 * median(std::move(sizes));
 }
 
 /// Cauchy's loss: outliers (a finger, a highlight) weigh ever less, yet never zero, so that the fit can still find them good.

@@ -8,8 +8,6 @@
 namespace catchlight::tracking {
 namespace {
 
-using Quad = std::array<glm::dvec2, 4>;
-
 RigidTransform rigid_transform(const cv::Mat& rotation_vector, const cv::Mat& translation) {
   cv::Matx33d rotation;
   cv::Rodrigues(rotation_vector, rotation);
@@ -22,14 +20,13 @@ RigidTransform rigid_transform(const cv::Mat& rotation_vector, const cv::Mat& tr
 }
 
 /// Infinite where a corner is behind the camera.
-double reprojection_rms_px(const CameraModel& camera, const RigidTransform& camera_from_tag,
-                           const std::array<glm::dvec2, 4>& corners_px, double size_m) {
+double reprojection_rms_px(const CameraModel& camera, const RigidTransform& camera_from_tag, const Quad& corners_px,
+                           double size_m) {
+  const auto projected = project_corners(camera, camera_from_tag, size_m);
+  if (!projected) return std::numeric_limits<double>::infinity();
   double sum = 0;
-  const auto corners_m = tag_corners_m(size_m);
   for (int i = 0; i < 4; ++i) {
-    const auto projected = project_px(camera, camera_from_tag * corners_m[i]);
-    if (!projected) return std::numeric_limits<double>::infinity();
-    const glm::dvec2 error = *projected - corners_px[i];
+    const glm::dvec2 error = (*projected)[i] - corners_px[i];
     sum += glm::dot(error, error);
   }
   return std::sqrt(sum / 4);
@@ -70,7 +67,18 @@ std::array<glm::dvec3, 4> tag_corners_m(double size_m) {
   return {{{-h, -h, 0}, {h, -h, 0}, {h, h, 0}, {-h, h, 0}}};
 }
 
-std::vector<PoseHypothesis> planar_poses(const CameraModel& camera, const std::array<glm::dvec2, 4>& corners_px, double size_m) {
+std::optional<Quad> project_corners(const CameraModel& camera, const RigidTransform& camera_from_tag, double size_m) {
+  Quad quad;
+  const auto corners_m = tag_corners_m(size_m);
+  for (int i = 0; i < 4; ++i) {
+    const auto corner = project_px(camera, camera_from_tag * corners_m[i]);
+    if (!corner || !std::isfinite(corner->x + corner->y)) return std::nullopt;
+    quad[i] = *corner;
+  }
+  return quad;
+}
+
+std::vector<PoseHypothesis> planar_poses(const CameraModel& camera, const Quad& corners_px, double size_m) {
   Quad ideal_px;
   for (int i = 0; i < 4; ++i) {
     const auto ideal = undistort_px(camera, corners_px[i]);

@@ -1,12 +1,15 @@
-// The two poses that four corners of a square allow.
+// A square's corners, and the two poses that they allow.
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "catchlight.hpp"
 
 namespace catchlight::tracking {
+
+using Quad = std::array<glm::dvec2, 4>;
 
 struct PoseHypothesis {
   RigidTransform camera_from_tag;
@@ -16,9 +19,12 @@ struct PoseHypothesis {
 /// Corners of the tag's square in its own frame, in the order of TagObservation::corners_px.
 std::array<glm::dvec3, 4> tag_corners_m(double size_m);
 
+/// A tag's corners as seen; empty where one is behind the camera.
+std::optional<Quad> project_corners(const CameraModel& camera, const RigidTransform& camera_from_tag, double size_m);
+
 /// Infinitesimal plane-based pose estimation (Collins & Bartoli 2014), each solution refined by Levenberg-Marquardt on the
 /// reprojection error in pixels. At most two, the better first; only those with the tag in front of the camera and its
 /// printed face towards it; one where both solutions are the same. Empty for corners that no such pose explains.
-std::vector<PoseHypothesis> planar_poses(const CameraModel& camera, const std::array<glm::dvec2, 4>& corners_px, double size_m);
+std::vector<PoseHypothesis> planar_poses(const CameraModel& camera, const Quad& corners_px, double size_m);
 
 }  // namespace catchlight::tracking

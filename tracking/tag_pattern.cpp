@@ -15,11 +15,12 @@ constexpr int kMostLines = 16;        ///< within reach along one axis; a blur t
 
 /// The grid lines of one axis that are within reach.
 struct Lines {
+  double variance, sigma;
   int first, count;
   double at[kMostLines];  ///< standardised distances
   Normal normal[kMostLines];
 
-  Lines(double place, double sigma) {
+  Lines(double place, double blur) : variance(blur), sigma(std::sqrt(blur)) {
     const double reach = kReachSigmas * sigma;
     first = static_cast<int>(std::ceil(place - reach));
     count = std::clamp(static_cast<int>(std::floor(place + reach)) - first + 1, 0, kMostLines);
@@ -29,6 +30,20 @@ struct Lines {
     }
   }
 };
+
+/// Adds the edges that lie on one axis's lines, from the cells along it, `stride` apart.
+void add_straight_edges(const Lines& lines, const float* cells, int stride, PatternSample& sample, double& slope,
+                        double& curvature) {
+  for (int i = 0; i < lines.count; ++i) {
+    const double step = cells[(i + 1) * stride] - cells[i * stride];
+    if (step == 0) continue;
+    sample.edge = true;
+    const double density = lines.normal[i].density;
+    sample.white += step * lines.normal[i].cumulative;
+    slope += step * density / lines.sigma;
+    curvature -= step * lines.at[i] * density / lines.variance;
+  }
+}
 
 }  // namespace
 
@@ -63,8 +78,8 @@ TagPattern::Neighbourhood TagPattern::around(const glm::dvec2& cell, const glm::
 
 PatternSample TagPattern::sample(const glm::dvec2& cell, const Covariance2& blur) const {
   PatternSample result;
-  const double sigma_u = std::sqrt(blur.xx), sigma_v = std::sqrt(blur.yy);
-  const Lines columns(cell.x, sigma_u), rows(cell.y, sigma_v);
+  const Lines columns(cell.x, blur.xx), rows(cell.y, blur.yy);
+  const double sigma_u = columns.sigma, sigma_v = rows.sigma;
   float cells[kMostLines + 1][kMostLines + 1];
   for (int j = 0; j <= rows.count; ++j)
     for (int i = 0; i <= columns.count; ++i) {
@@ -73,24 +88,8 @@ PatternSample TagPattern::sample(const glm::dvec2& cell, const Covariance2& blur
     }
   result.known = true;
   result.white = white(columns.first - 1, rows.first - 1);
-  for (int i = 0; i < columns.count; ++i) {
-    const double step = cells[0][i + 1] - cells[0][i];
-    if (step == 0) continue;
-    result.edge = true;
-    const double density = columns.normal[i].density;
-    result.white += step * columns.normal[i].cumulative;
-    result.gradient.x += step * density / sigma_u;
-    result.uu -= step * columns.at[i] * density / blur.xx;
-  }
-  for (int j = 0; j < rows.count; ++j) {
-    const double step = cells[j + 1][0] - cells[j][0];
-    if (step == 0) continue;
-    result.edge = true;
-    const double density = rows.normal[j].density;
-    result.white += step * rows.normal[j].cumulative;
-    result.gradient.y += step * density / sigma_v;
-    result.vv -= step * rows.at[j] * density / blur.yy;
-  }
+  add_straight_edges(columns, &cells[0][0], 1, result, result.gradient.x, result.uu);
+  add_straight_edges(rows, &cells[0][0], kMostLines + 1, result, result.gradient.y, result.vv);
   if (columns.count == 0 || rows.count == 0) return result;
 
   const double rho = std::clamp(blur.xy / (sigma_u * sigma_v), -0.999, 0.999), root = std::sqrt(1 - rho * rho);

@@ -28,7 +28,7 @@ class TagPattern {
   int margin() const { return margin_; }
 
   /// White share of a cell of the print, 0 or 1; negative: unknown.
-  float cell(int column, int row) const { return white(column, row); }
+  float white(int column, int row) const;
 
   enum class Neighbourhood { unknown, plateau, edge };
 
@@ -41,8 +41,6 @@ class TagPattern {
   PatternSample sample(const glm::dvec2& cell, const Covariance2& blur_cells2) const;
 
  private:
-  float white(int column, int row) const;
-
   int cells_across_, margin_, side_;
   std::vector<float> white_;
 };

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tracking/lens.hpp"
 #include "tracking/planar_pose.hpp"
 
 namespace catchlight::tracking {
@@ -46,17 +45,6 @@ LumaView cropped(const LumaView& luma, const PixelRect& region) {
 }
 
 }  // namespace
-
-std::optional<Quad> project_corners(const CameraModel& camera, const RigidTransform& camera_from_tag, double size_m) {
-  Quad quad;
-  const auto corners_m = tag_corners_m(size_m);
-  for (int i = 0; i < 4; ++i) {
-    const auto corner = project_px(camera, camera_from_tag * corners_m[i]);
-    if (!corner || !std::isfinite(corner->x + corner->y)) return std::nullopt;
-    quad[i] = *corner;
-  }
-  return quad;
-}
 
 TagSearch::TagSearch(const CameraModel& camera, const TagTarget& target, const TrackerOptions& options)
     : camera_(camera), tags_(target.tags()) {

@@ -10,11 +10,6 @@
 
 namespace catchlight::tracking {
 
-using Quad = std::array<glm::dvec2, 4>;
-
-/// A tag's corners as seen; empty where one is behind the camera.
-std::optional<Quad> project_corners(const CameraModel& camera, const RigidTransform& camera_from_tag, double size_m);
-
 struct Sighting {
   std::size_t tag = 0;  ///< index into TagTarget::tags()
   Detection detection;

@@ -10,6 +10,7 @@
 #include "tracking/detector.hpp"
 #include "tracking/families.hpp"
 #include "tracking/planar_pose.hpp"
+#include "tracking/statistics.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -80,8 +81,7 @@ class TagBoard : public CalibrationBoard {
       add_tag(view, blurs_px, index, tracking::refine_corners(luma, lens, detection.corners_px, layouts_[index]));
     constexpr std::size_t kFewestTags = 4;
     if (view.points_px.size() < 4 * kFewestTags) return {};
-    std::nth_element(blurs_px.begin(), blurs_px.begin() + blurs_px.size() / 2, blurs_px.end());
-    view.blur_px = blurs_px[blurs_px.size() / 2];
+    view.blur_px = tracking::median(std::move(blurs_px));
     return view;
   }
 

@@ -8,6 +8,7 @@
 
 #include "app/progress.hpp"
 #include "tracking/camera_file.hpp"
+#include "tracking/statistics.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -129,9 +130,7 @@ void leave_out_blurred(CollectedViews& views) {
   if (views.boards.empty()) return;
   std::vector<double> blurs_px;
   for (const SeenBoard& board : views.boards) blurs_px.push_back(board.view.blur_px);
-  const auto middle = blurs_px.begin() + static_cast<std::ptrdiff_t>(blurs_px.size() / 2);
-  std::nth_element(blurs_px.begin(), middle, blurs_px.end());
-  const double limit_px = kBlurRatio * *middle;
+  const double limit_px = kBlurRatio * tracking::median(std::move(blurs_px));
   std::erase_if(views.boards, [&](const SeenBoard& board) {
     const bool is_blurred = board.view.blur_px > limit_px;
     if (is_blurred) views.blurred.push_back(board.view.frame);

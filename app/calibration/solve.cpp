@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "app/calibration/uncertainty.hpp"
+#include "tracking/statistics.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -178,16 +179,10 @@ ViewFit view_fit(const BoardView& view, const Fit& fit, std::size_t index) {
   return result;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Moves outliers from `views` to `rejected`; whether there were any.
 bool reject_outliers(std::vector<BoardView>& views, const Fit& fit, std::vector<RejectedView>& rejected) {
   std::vector<double> errors_px(fit.errors_px.begin<double>(), fit.errors_px.end<double>());
-  const double limit_px = std::max(kNegligiblePx, kOutlierRatio * median(errors_px));
+  const double limit_px = std::max(kNegligiblePx, kOutlierRatio * tracking::median(errors_px));
   std::vector<BoardView> kept;
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (errors_px[i] > limit_px)

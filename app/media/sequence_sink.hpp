@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "app/media/partial_file.hpp"
 #include "app/media/sequence.hpp"
 #include "app/media/video_encoder.hpp"
+#include "app/output_file.hpp"
 
 namespace catchlight::app {
 
@@ -21,7 +21,7 @@ class SequenceSink final : public MediaSink {
   bool overwrite_;
   CodecPtr encoder_;
   PacketPtr packet_ = make_packet();
-  std::vector<PartialFile> files_;
+  std::vector<PendingFile> files_;
 };
 
 }  // namespace catchlight::app

@@ -101,10 +101,7 @@ std::unique_ptr<MediaSink> MediaSink::open(const std::string& path, const std::s
                            "",     frame_rate_of(source),        source.info().first_number,
                            options};
   if (request.codec == VideoCodec::h264) check_quality(options);
-  const bool is_file = path != "-";
-  if (is_file) refuse_same_file(path, source_location);
-  if (is_file && !options.overwrite && fs::exists(path))
-    throw UsageError("'" + path + "' exists already; overwrite it with -y, or choose another name");
+  if (path != "-") refuse_same_file(path, source_location);
   // A camera or stream cannot be read a second time; y4m has no audio.
   if (!source.info().is_sequence && !source.info().is_live && request.codec != VideoCodec::y4m)
     request.audio_location = source_location;

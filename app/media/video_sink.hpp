@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "app/media/audio_copy.hpp"
-#include "app/media/partial_file.hpp"
 #include "app/media/video_encoder.hpp"
+#include "app/output_file.hpp"
 
 namespace catchlight::app {
 
@@ -36,7 +36,7 @@ class VideoSink final : public MediaSink {
   std::string what() const { return "cannot write '" + request_.path + "'"; }
 
   VideoSinkRequest request_;
-  std::optional<PartialFile> file_;  // none for stdout
+  std::optional<PendingFile> file_;  // none for stdout
   OutputPtr output_;
   AVStream* stream_ = nullptr;
   CodecPtr encoder_;

@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "render/image_difference.hpp"
+#include "tracking/statistics.hpp"
 
 namespace catchlight::app {
 
@@ -37,9 +38,7 @@ double masked_percentile(const cv::Mat& values, const cv::Mat& region, double sh
   for (int y = 0; y < values.rows; ++y)
     for (int x = 0; x < values.cols; ++x)
       if (region.at<std::uint8_t>(y, x)) chosen.push_back(values.at<float>(y, x));
-  const auto position = chosen.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(chosen.size() - 1));
-  std::nth_element(chosen.begin(), position, chosen.end());
-  return *position;
+  return tracking::quantile(std::move(chosen), share);
 }
 
 PictureError picture_error(const cv::Mat& ours, const cv::Mat& truth, int box, const cv::Mat& ssim_map, const cv::Mat& region) {

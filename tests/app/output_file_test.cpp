@@ -63,6 +63,27 @@ TEST(PendingFile, LeavesNothingWithoutCommit) {
   EXPECT_THAT(folder.names(), IsEmpty());
 }
 
+TEST(PendingFile, IsThereAtOnceSoThatAnUnwritableFolderIsFoundOutBeforeTheWork) {
+  const TemporaryFolder folder;
+  const PendingFile pending(folder.path("probe.exr"), false);
+  EXPECT_EQ(tests::read_text(pending.pending_path()), "");
+  EXPECT_THAT(folder.names(), ElementsAre(HasSubstr(".partial-")));
+  // Nobody, root included, can make files there.
+  EXPECT_THAT(message_of<Error>([] { PendingFile("/proc/probe.exr", false); }), HasSubstr("/proc/probe.exr: cannot write"));
+}
+
+TEST(PendingFile, MovesWithoutRemovingOrCommittingTwice) {
+  const TemporaryFolder folder;
+  {
+    PendingFile first(folder.path("probe.exr"), false);
+    std::ofstream(first.pending_path()) << "whole";
+    PendingFile second(std::move(first));
+    second.commit();
+  }
+  EXPECT_EQ(tests::read_text(folder.path("probe.exr")), "whole");
+  EXPECT_THAT(folder.names(), ElementsAre("probe.exr"));
+}
+
 TEST(PendingFile, OldFileSurvivesAFailedWriter) {
   const TemporaryFolder folder;
   const std::string path = folder.write("probe.exr", "old");

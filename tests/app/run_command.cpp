@@ -40,4 +40,10 @@ CommandResult run_catchlight(const std::vector<std::string>& arguments, const st
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(folder.path("stdout")), read_text(folder.path("stderr"))};
 }
 
+int count_of(std::string_view part, std::string_view text) {
+  int count = 0;
+  for (std::size_t at = text.find(part); at != std::string_view::npos; at = text.find(part, at + part.size())) ++count;
+  return count;
+}
+
 }  // namespace catchlight::tests

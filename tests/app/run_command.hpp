@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace catchlight::tests {
@@ -15,5 +16,8 @@ struct CommandResult {
 /// `catchlight` with these arguments; `environment` is set on top of ours.
 CommandResult run_catchlight(const std::vector<std::string>& arguments,
                              const std::map<std::string, std::string>& environment = {});
+
+/// How often `part` is in `text`.
+int count_of(std::string_view part, std::string_view text);
 
 }  // namespace catchlight::tests

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "app/parameters.hpp"
+#include "tests/app/scene_text.hpp"
 #include "tests/app/temporary_folder.hpp"
 
 namespace catchlight::app {
@@ -11,24 +12,12 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 using tests::message_of;
+using tests::read_scene;
+using tests::scene_refusal;
 using tests::TemporaryFolder;
 
-SceneSettings read(const std::string& text) {
-  const TemporaryFolder folder;
-  return read_scene_file(folder.write("scene.toml", text));
-}
-
-/// What follows the file's name.
-std::string refusal(const std::string& text) {
-  const TemporaryFolder folder;
-  const std::string path = folder.write("scene.toml", text);
-  const std::string message = message_of<Error>([&] { read_scene_file(path); });
-  EXPECT_THAT(message, StartsWith(path + ':'));
-  return message.substr(std::min(message.size(), path.size() + 1));
-}
-
 TEST(SceneFile, EmptyFileHasTheDefaults) {
-  const SceneSettings read_settings = read(""), defaults;
+  const SceneSettings read_settings = read_scene(""), defaults;
   for (const Parameter& parameter : parameters())
     EXPECT_EQ(parameter_text(read_settings, parameter), parameter_text(defaults, parameter)) << parameter.key;
   EXPECT_TRUE(read_settings.by_hand.empty());
@@ -36,7 +25,7 @@ TEST(SceneFile, EmptyFileHasTheDefaults) {
 }
 
 TEST(SceneFile, ReadsEveryKind) {
-  const SceneSettings scene = read(R"(
+  const SceneSettings scene = read_scene(R"(
 [tag]
 family = "tag25h9"
 id = 12
@@ -86,7 +75,7 @@ TEST(SceneFile, FilesAreRelativeToIt) {
 }
 
 TEST(SceneFile, SeveralObjectsStayApart) {
-  const SceneSettings scene = read("[[object]]\nmesh = 'a.glb'\ntag_from_object.scale = 3\n[[object]]\nmesh = 'b.glb'\n");
+  const SceneSettings scene = read_scene("[[object]]\nmesh = 'a.glb'\ntag_from_object.scale = 3\n[[object]]\nmesh = 'b.glb'\n");
   ASSERT_EQ(scene.objects.size(), 2u);
   EXPECT_EQ(scene.objects[0].mesh, "a.glb");
   EXPECT_EQ(scene.objects[0].scale, 3);
@@ -128,7 +117,7 @@ TEST(ObjectPlacement, ScalesBeforeItTurnsAndMoves) {
 
 TEST(ObjectPlacement, MatrixIsThreeRows) {
   const SceneSettings scene =
-      read("[[object]]\nmesh = 'a.glb'\ntag_from_object = { matrix = [[1,2,3,4],[5,6,7,8],[9,10,11,12]] }\n");
+      read_scene("[[object]]\nmesh = 'a.glb'\ntag_from_object = { matrix = [[1,2,3,4],[5,6,7,8],[9,10,11,12]] }\n");
   expect_maps(scene.objects.at(0), {0, 0, 0}, {4, 8, 12});
   expect_maps(scene.objects.at(0), {1, 0, 0}, {5, 13, 21});
   expect_maps(scene.objects.at(0), {0, 0, 1}, {7, 15, 23});
@@ -150,7 +139,7 @@ struct Mistake {
 class RefusedScene : public ::testing::TestWithParam<Mistake> {};
 
 TEST_P(RefusedScene, SaysWhereAndWhatToDo) {
-  EXPECT_EQ(refusal(GetParam().text), GetParam().message);
+  EXPECT_EQ(scene_refusal(GetParam().text), GetParam().message);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -204,11 +193,11 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return test.param.name; });
 
 TEST(SceneFile, BrokenTomlNamesTheLine) {
-  EXPECT_THAT(refusal("[tag]\nid = = 3\n"), StartsWith("2:6: "));
+  EXPECT_THAT(scene_refusal("[tag]\nid = = 3\n"), StartsWith("2:6: "));
 }
 
 TEST(SceneFile, RepeatedKeyNamesTheLine) {
-  EXPECT_THAT(refusal("[tag]\nid = 3\nid = 4\n"), StartsWith("3:"));
+  EXPECT_THAT(scene_refusal("[tag]\nid = 3\nid = 4\n"), StartsWith("3:"));
 }
 
 TEST(SceneFile, MissingFile) {

@@ -71,6 +71,21 @@ TEST_F(TrackCommand, TheFirstFramesOfACausalTrackDoNotDependOnLaterOnes) {
     EXPECT_EQ(first[i].camera_from_tag.translation_m, all[i].camera_from_tag.translation_m) << i;
 }
 
+TEST_F(TrackCommand, ProgressCountsTheFramesThatAreReadBeyondTheRange) {
+  const std::string error = track(footage(6), folder_.path("track.csv"), {"--frames", "0:2"}).error;
+  EXPECT_THAT(error, HasSubstr("6/26 frames")) << "a second more than the range; Matroska does not say how many there are";
+}
+
+TEST_F(TrackCommand, LostFramesAreWarnedOfOnceWhereverThePosesComeFrom) {
+  const std::string video = footage(3), poses = folder_.path("poses.csv"), output = folder_.path("track.csv");
+  tracked(video, "poses.csv", {"--frames", "0:1"});
+  const std::string two_lost = "warning: no tag in 2 of 3 frames", all_lost = "warning: the tag was never found in 3 frames";
+  EXPECT_EQ(count_of(two_lost, track(video, output, {"-y", "--track", poses}).error), 1);
+  EXPECT_EQ(count_of(all_lost, track(video, output, {"-y", "--tag.id", "17"}).error), 1);
+  EXPECT_EQ(count_of(all_lost, track(video, output, {"-y", "--tag.id", "17", "--causal"}).error), 1);
+  EXPECT_EQ(count_of("warning", track(video, output, {"-y"}).error), 0) << "nothing is lost";
+}
+
 TEST_F(TrackCommand, FramesBeforeTheDamageAreSolved) {
   const std::string video = footage(12);
   const auto whole = tracked(video, "whole.csv");

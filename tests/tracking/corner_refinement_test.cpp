@@ -9,8 +9,6 @@
 namespace catchlight::tracking {
 namespace {
 
-using Quad = std::array<glm::dvec2, 4>;
-
 SyntheticScene one_tag(const CameraModel& camera, double distance_m, const glm::dvec3& turn_deg) {
   SyntheticScene scene;
   scene.camera = camera;

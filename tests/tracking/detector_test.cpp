@@ -4,11 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "tests/tracking/synthetic_tag.hpp"
+#include "tracking/planar_pose.hpp"
 
 namespace catchlight::tracking {
 namespace {
-
-using Quad = std::array<glm::dvec2, 4>;
 
 SyntheticScene facing_tag(const glm::dvec2& center_px, double turn_about_view_deg) {
   SyntheticScene scene;

@@ -9,8 +9,6 @@
 namespace catchlight::tracking {
 namespace {
 
-using Quad = std::array<glm::dvec2, 4>;
-
 SyntheticTag tag_at(const RigidTransform& camera_from_tag, double size_m = 0.08) {
   SyntheticTag tag;
   tag.target.size_m = size_m;
