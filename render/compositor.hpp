@@ -38,11 +38,11 @@ inline constexpr int kMaxLightSamples = 128;
 struct RenderScene {
   Mesh mesh;
   Transfer transfer;
-  ShRgb light;                      ///< all of it: transfer.bands^2 coefficients
-  std::vector<LightSample> lights;  ///< split off; at most kMaxLightSamples, none where the transfer has no direct part
-  ReflectionMap reflections;        ///< all of it
-  ReflectionMap rest_reflections;   ///< less the lights; used where there are any
-  glm::vec3 probe_in_tag_m{0.0f};   ///< where the probe was captured
+  ShRgb light;                           ///< all of it: transfer.bands^2 coefficients
+  std::vector<LightSample> lights = {};  ///< split off; at most kMaxLightSamples, none where the transfer has no direct part
+  ReflectionMap reflections;             ///< all of it
+  ReflectionMap rest_reflections = {};   ///< less the lights; used where there are any
+  glm::vec3 probe_in_tag_m{0.0f};        ///< where the probe was captured
 };
 
 struct GlareSettings {
