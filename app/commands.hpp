@@ -31,6 +31,7 @@ void set_up_info(CLI::App& command, Context& context);
 void set_up_overlay(CLI::App& command, Context& context);
 void set_up_params(CLI::App& command, Context& context);
 void set_up_probe(CLI::App& command, Context& context);
+void set_up_reference(CLI::App& command, Context& context);
 void set_up_replay(CLI::App& command, Context& context);
 void set_up_tag(CLI::App& command, Context& context);
 void set_up_track(CLI::App& command, Context& context);

@@ -1,5 +1,6 @@
 #include "app/linear_patch.hpp"
 
+#include <cmath>
 #include <cstring>
 
 namespace catchlight::app {
@@ -47,6 +48,29 @@ std::vector<float> linear_rgb(const Frame& frame, const PixelRect& rect) {
     for (std::size_t i = 0; i + 2 < linear.size(); i += 3) {
       const glm::vec3 rgb = rec709_from_plate * glm::vec3(linear[i], linear[i + 1], linear[i + 2]);
       std::memcpy(&linear[i], &rgb, sizeof rgb);
+    }
+  }
+  return linear;
+}
+
+double code_from_linear(TransferFunction transfer, double linear) {
+  const double light = std::max(linear, 0.0);
+  switch (transfer) {
+    case TransferFunction::srgb:
+      return srgb_from_linear(linear);
+    case TransferFunction::linear:
+      return linear;
+    case TransferFunction::gamma22:
+      return std::pow(light, 1 / 2.2);
+    case TransferFunction::gamma28:
+      return std::pow(light, 1 / 2.8);
+    case TransferFunction::pq: {
+      const double root = std::pow(light * 203.0 / 10000.0, 2610.0 / 16384.0);
+      return std::pow((0.8359375 + 18.8515625 * root) / (1 + 18.6875 * root), 2523.0 / 32.0);
+    }
+    case TransferFunction::hlg: {
+      const double scene = light * 0.26496256;
+      return scene <= 1.0 / 12 ? std::sqrt(3 * scene) : 0.17883277 * std::log(12 * scene - 0.28466892) + 0.55991073;
     }
   }
   return linear;

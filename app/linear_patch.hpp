@@ -1,4 +1,4 @@
-// Footage codes to linear light, on the CPU, for small regions.
+// Footage codes to linear light and back, on the CPU.
 #pragma once
 
 #include <vector>
@@ -9,5 +9,8 @@ namespace catchlight::app {
 
 /// RGB triples of `rect`, row-major, Rec. 709 primaries; 1 = sensor white.
 std::vector<float> linear_rgb(const Frame& frame, const PixelRect& rect);
+
+/// The inverse of linear_from_code(); light below 0 that has no code there (all but sRGB and linear) gets black's.
+double code_from_linear(TransferFunction transfer, double linear);
 
 }  // namespace catchlight::app

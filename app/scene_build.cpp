@@ -33,32 +33,6 @@ double diagonal_m(const render::Mesh& mesh) {
   return glm::distance(low, high);
 }
 
-/// Probes are captured where the object's middle will be.
-float half_height_m(const render::Mesh& mesh) {
-  float top = 0;
-  for (const render::Vertex& vertex : mesh.vertices) top = std::max(top, vertex.position_m.z);
-  return top / 2;
-}
-
-render::Probe load_scaled_probe(const SceneSettings& settings, const WarningHandler& warn) {
-  if (settings.probe.image.empty())
-    throw Error("the scene has no light: give [probe] image = \"FILE\" in the scene file, or --probe.image FILE");
-  render::ProbeLoadOptions options;
-  if (settings.probe.layout != "auto") options.layout = render::probe_layout_from_name(settings.probe.layout);
-  options.strict = settings.probe.strict;
-  render::Probe probe = render::load_probe(settings.resolve(settings.probe.image), options, warn);
-  const auto gain = static_cast<float>(std::exp2(settings.probe.ev));
-  for (float& value : probe.image.data) value *= gain;
-  return probe;
-}
-
-/// Tag-fixed: the tag's frame. Camera-fixed: the camera's, whose up is -y and which looks along probe -z.
-glm::dmat3 light_from_probe(const SceneSettings::Probe& probe) {
-  if (probe.fixed_to == "tag") return render::tag_from_probe(probe.up.front(), probe.yaw_deg);
-  const glm::dmat3 camera_from_upright(glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0, 0, -1));
-  return camera_from_upright * render::tag_from_probe('y', probe.yaw_deg);
-}
-
 std::string origin_of(const SceneSettings& settings, const std::string& key) {
   return settings.is_by_hand(key) ? "set by hand" : "default";
 }
@@ -147,6 +121,31 @@ glm::dvec3 irradiance_over_pi(const BuiltScene& built, const glm::dmat3& tag_fro
 
 }  // namespace
 
+render::Probe load_scaled_probe(const SceneSettings& settings, const WarningHandler& warn) {
+  if (settings.probe.image.empty())
+    throw Error("the scene has no light: give [probe] image = \"FILE\" in the scene file, or --probe.image FILE");
+  render::ProbeLoadOptions options;
+  if (settings.probe.layout != "auto") options.layout = render::probe_layout_from_name(settings.probe.layout);
+  options.strict = settings.probe.strict;
+  render::Probe probe = render::load_probe(settings.resolve(settings.probe.image), options, warn);
+  const auto gain = static_cast<float>(std::exp2(settings.probe.ev));
+  for (float& value : probe.image.data) value *= gain;
+  return probe;
+}
+
+// The camera's up is -y, and it looks along probe -z.
+glm::dmat3 light_from_probe(const SceneSettings::Probe& probe) {
+  if (probe.fixed_to == "tag") return render::tag_from_probe(probe.up.front(), probe.yaw_deg);
+  const glm::dmat3 camera_from_upright(glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0, 0, -1));
+  return camera_from_upright * render::tag_from_probe('y', probe.yaw_deg);
+}
+
+glm::dvec3 probe_in_tag_m(const render::Mesh& mesh) {
+  float top = 0;
+  for (const render::Vertex& vertex : mesh.vertices) top = std::max(top, vertex.position_m.z);
+  return {0, 0, top / 2};
+}
+
 render::Mesh build_mesh(const SceneSettings& settings, const WarningHandler& warn) {
   if (settings.objects.empty())
     throw Error("the scene has no object: give an [[object]] in the scene file, or --object.mesh FILE");
@@ -163,7 +162,7 @@ BuiltScene build_render_scene(const SceneSettings& settings, const WarningHandle
   built.light_from_probe = light_from_probe(settings.probe);
   built.light_follows_camera = settings.probe.fixed_to == "camera";
   built.scene.mesh = build_mesh(settings, warn);
-  built.scene.probe_in_tag_m = glm::vec3(0, 0, half_height_m(built.scene.mesh));
+  built.scene.probe_in_tag_m = glm::vec3(probe_in_tag_m(built.scene.mesh));
   bake(built, settings, warn, progress);
   built.scene.light = render::rotate_sh(render::project_to_sh(built.probe, built.scene.transfer.bands), built.light_from_probe);
   built.scene.reflections = render::prefilter_reflections(built.probe, built.light_from_probe);

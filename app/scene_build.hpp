@@ -32,6 +32,15 @@ BuiltScene build_render_scene(const SceneSettings& settings, const WarningHandle
 /// The objects in the tag frame as one mesh, fine enough for light kept at its vertices.
 render::Mesh build_mesh(const SceneSettings& settings, const WarningHandler& warn);
 
+/// The probe, scaled by probe.ev. Throws Error where the scene names none.
+render::Probe load_scaled_probe(const SceneSettings& settings, const WarningHandler& warn);
+
+/// Takes probe directions to the light frame: the tag's, or the camera's where probe.fixed_to is "camera".
+glm::dmat3 light_from_probe(const SceneSettings::Probe& probe);
+
+/// Where the probe was captured: on the tag's axis, at half the object's height.
+glm::dvec3 probe_in_tag_m(const render::Mesh& mesh);
+
 /// For FrameView: the identity unless the light follows the camera.
 glm::dmat3 tag_from_light(const BuiltScene& built, const RigidTransform& camera_from_tag);
 

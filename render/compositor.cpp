@@ -49,7 +49,8 @@ TagLight light_of(const RenderScene& scene) {
 }
 
 TagLight turned(const TagLight& light, const glm::dmat3& rotation) {
-  TagLight result{rotate_sh(light.whole, rotation), rotate_sh(light.split_off, rotation), light.samples};
+  TagLight result{rotate_sh(light.whole, rotation), {}, light.samples};
+  if (!light.split_off.empty()) result.split_off = rotate_sh(light.split_off, rotation);
   for (LightSample& sample : result.samples) sample.direction = rotation * sample.direction;
   return result;
 }
@@ -112,6 +113,7 @@ Compositor::Impl::Impl(const RenderScene& scene, const CompositorSettings& wante
 /// The light turns against the object only where the probe is fixed to the camera.
 void Compositor::Impl::relight(const glm::dmat3& tag_from_light) {
   if (lit_from == tag_from_light) return;
+  const auto pass = clock.pass("light");
   const TagLight light_tag = tag_from_light == glm::dmat3(1.0) ? light_probe : turned(light_probe, tag_from_light);
   light.set_light(light_tag.whole, light_tag.split_off);
   lights.update(light_tag.samples, [this] { object.draw_geometry(); });
@@ -203,10 +205,7 @@ Composite Compositor::Impl::render(const FrameView& view, const PlateReader& pla
   clock.begin_frame();
   times.clear();
   const PixelRect whole{0, 0, view.camera.width_px, view.camera.height_px};
-  {
-    const auto pass = clock.pass("light");
-    relight(view.tag_from_light);
-  }
+  relight(view.tag_from_light);
   const PixelRect virtual_rect = reach(view);
   Composite result;
   if (virtual_rect.empty() && !want_layers) return result;

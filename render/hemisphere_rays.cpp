@@ -16,18 +16,6 @@ std::uint32_t reversed(std::uint32_t x) {
   return ((x & 0xaaaaaaaau) >> 1) | ((x & 0x55555555u) << 1);
 }
 
-// Each bit is changed depending on lower bits only: on reversed numbers that is Owen's nested scrambling (Laine & Karras 2011,
-// with the constants of Burley 2020).
-std::uint32_t owen_scrambled(std::uint32_t x, std::uint32_t seed) {
-  x = reversed(x);
-  x ^= x * 0x3d20adeau;
-  x += seed;
-  x *= (seed >> 16) | 1;
-  x ^= x * 0x05526c56u;
-  x ^= x * 0x53a22864u;
-  return reversed(x);
-}
-
 // Sobol's second dimension: direction numbers v, v ^ v/2, ...
 std::uint32_t sobol_second(std::uint32_t k) {
   std::uint32_t value = 0;
@@ -38,6 +26,17 @@ std::uint32_t sobol_second(std::uint32_t k) {
 }
 
 }  // namespace
+
+// Each bit is changed depending on lower bits only: on reversed numbers that is nested scrambling.
+std::uint32_t owen_scrambled(std::uint32_t x, std::uint32_t seed) {
+  x = reversed(x);
+  x ^= x * 0x3d20adeau;
+  x += seed;
+  x *= (seed >> 16) | 1;
+  x ^= x * 0x05526c56u;
+  x ^= x * 0x53a22864u;
+  return reversed(x);
+}
 
 std::uint32_t mix_bits(std::uint32_t x) {
   x ^= x >> 16;

@@ -41,12 +41,14 @@ void SphereGrid::add_overlapping(int ring, double from, double to, std::vector<i
 
 std::vector<int> SphereGrid::neighbours(int cell) const {
   const int ring = ring_of(cell), column = cell - first_[ring];
-  const double width = 1.0 / columns(ring), from = column * width, half = 0.5 * width;
+  const double width = 1.0 / columns(ring), from = column * width;
   std::vector<int> cells;
-  for (int other = std::max(ring - 1, 0); other <= std::min(ring + 1, rings_ - 1); ++other)
-    add_overlapping(other, from - half, from + width + half, cells);
+  for (int other = std::max(ring - 1, 0); other <= std::min(ring + 1, rings_ - 1); ++other) {
+    const double aside = 0.5 / std::max(columns(ring), columns(other));  // the same seen from the other cell
+    add_overlapping(other, from - aside, from + width + aside, cells);
+  }
   // Across a pole lie the cells of its own ring.
-  if (ring == 0 || ring == rings_ - 1) add_overlapping(ring, 0, 1 - half, cells);
+  if (ring == 0 || ring == rings_ - 1) add_overlapping(ring, 0, 1 - 0.5 * width, cells);
   std::ranges::sort(cells);
   const auto repeated = std::ranges::unique(cells);
   cells.erase(repeated.begin(), repeated.end());

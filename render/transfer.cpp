@@ -92,6 +92,7 @@ class Baker {
     bake_bounces(transfer);
     finish_receiver(transfer, covered, transfer.receiver_direct);
     finish_receiver(transfer, covered, transfer.receiver);
+    if (progress_) progress_(1.0);  // light may have died away before the last bounce
     return transfer;
   }
 

@@ -27,11 +27,12 @@ vec3 direct_irradiance_over_pi(vec3 position, vec3 n) {
 }
 
 // GGX with height-correlated Smith and Schlick's Fresnel, for light from a patch of the sky `spread` (root mean square radians along one
-// axis) wide: half of its spread adds to that of the microfacets' slopes, whose variance along an axis is alpha^2 / 2.
+// axis) wide. Half of its spread adds to the microfacets' slopes; alpha^2 + spread^2 is what lowers their distribution's peak, which has
+// no variance to be added to, by as much.
 vec3 glossy_brdf(vec3 n, vec3 to_viewer, vec3 to_light, float spread, float alpha, vec3 f0, float f90) {
   vec3 h = normalize(to_viewer + to_light);
   float n_h = max(dot(n, h), 0.0), n_v = max(dot(n, to_viewer), 1e-4), n_l = dot(n, to_light);
-  float a2 = alpha * alpha, wide2 = min(a2 + 0.5 * spread * spread, 1.0);
+  float a2 = alpha * alpha, wide2 = min(a2 + spread * spread, 1.0);
   float d = n_h * n_h * (wide2 - 1.0) + 1.0;
   float shadowing = n_l * sqrt(n_v * n_v * (1.0 - a2) + a2) + n_v * sqrt(n_l * n_l * (1.0 - a2) + a2);
   vec3 fresnel = f0 + (f90 - f0) * pow(1.0 - max(dot(to_viewer, h), 0.0), 5.0);

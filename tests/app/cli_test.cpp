@@ -43,7 +43,7 @@ TEST(Program, VersionIsOnStdout) {
 TEST(Program, HelpNamesEveryCommand) {
   const CommandResult result = run_catchlight({"--help"});
   EXPECT_EQ(result.exit_code, 0);
-  for (const char* command : {"overlay", "track", "replay", "bake", "probe", "tag", "calibrate", "info", "params"})
+  for (const char* command : {"overlay", "track", "replay", "reference", "bake", "probe", "tag", "calibrate", "info", "params"})
     EXPECT_THAT(result.output, HasSubstr(command));
 }
 
