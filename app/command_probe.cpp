@@ -5,7 +5,7 @@
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
 
-#include "app/commands.hpp"
+#include "app/command_probe.hpp"
 #include "app/output_file.hpp"
 #include "app/probe_statistics.hpp"
 #include "app/text.hpp"
@@ -164,6 +164,7 @@ void add_bands(CLI::App& command, ProbeArguments& arguments) {
 void set_up_probe(CLI::App& command, Context& context) {
   command.require_subcommand(1);
   const auto arguments = std::make_shared<ProbeArguments>();
+  add_probe_merge(command, context);
 
   CLI::App& info = add_probe_command(command, "info", "Size, range, where the light comes from", arguments, print_info, context);
   add_bands(info, *arguments);
