@@ -1,6 +1,8 @@
 #include "app/probe_merge/photographs.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <opencv2/imgcodecs.hpp>
@@ -14,10 +16,12 @@ namespace catchlight::app {
 namespace {
 
 std::vector<std::uint8_t> bytes_of(const std::string& path) {
+  std::error_code ignored;
   std::ifstream in(path, std::ios::binary);
+  if (!in || std::filesystem::is_directory(path, ignored))
+    throw Error(path + ": cannot be opened; expected a photograph of a mirror ball");
   std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(in), {}};
-  if (!in.good() && !in.eof()) throw Error(path + ": cannot be opened; expected a photograph of a mirror ball");
-  if (bytes.empty()) throw Error(path + ": is empty or a folder; expected a photograph of a mirror ball");
+  if (bytes.empty()) throw Error(path + ": is empty; expected a photograph of a mirror ball");
   return bytes;
 }
 

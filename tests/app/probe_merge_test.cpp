@@ -312,5 +312,85 @@ TEST_F(BallBesideTag, NamesThePhotographWithoutATag) {
               testing::AllOf(HasSubstr("a0.png"), HasSubstr("tag36h11, id 7"), HasSubstr("was not found")));
 }
 
+// --- bad input -----------------------------------------------------------------------------------------------------------
+
+struct BadPhotographs : ProbeMerge {
+  std::string png(const std::string& name, int width, int depth = CV_8U) {
+    cv::imwrite(folder.path(name), cv::Mat(64, width, CV_MAKETYPE(depth, 3), cv::Scalar::all(90)));
+    return folder.path(name);
+  }
+  std::string error_of(const std::vector<std::string>& files, const std::vector<double>& times_s) {
+    return tests::message_of<Error>([&] { read_view(files, times_s); });
+  }
+};
+
+TEST_F(BadPhotographs, AreNamed) {
+  const std::string a = png("a.png", 64), small = png("small.png", 32), deep = png("deep.png", 64, CV_16U);
+  EXPECT_THAT(error_of({"/nowhere/a.jpg"}, {}), HasSubstr("/nowhere/a.jpg"));
+  EXPECT_THAT(error_of({folder.path()}, {}), HasSubstr(folder.path()));
+  EXPECT_THAT(error_of({folder.write("text.jpg", "no picture")}, {}), HasSubstr("text.jpg: cannot be read"));
+  EXPECT_THAT(error_of({a, small}, {1, 0.25}), testing::AllOf(HasSubstr("small.png: is 32 x 64"), HasSubstr("64 x 64")));
+  EXPECT_THAT(error_of({a, deep}, {1, 0.25}), HasSubstr("16 bits"));
+  EXPECT_THAT(error_of({a, a}, {1, 1}), HasSubstr("same exposure"));
+  EXPECT_THAT(error_of({a, a}, {}), testing::AllOf(HasSubstr("a.png"), HasSubstr("--times")));
+  const std::string linear = write_exr("linear.exr", render::Image(8, 8));
+  EXPECT_THAT(error_of({a, linear}, {1, 0.25}), HasSubstr("linear.exr: is scene-linear already"));
+}
+
+TEST_F(BadPhotographs, TruncatedPngIsNamed) {
+  const std::string whole = tests::read_text(png("a.png", 64));
+  EXPECT_THAT(error_of({folder.write("half.png", whole.substr(0, 20))}, {}), HasSubstr("half.png"));
+}
+
+TEST_F(BadPhotographs, TimesAreReadAsPhotographersWriteThem) {
+  EXPECT_THAT(exposure_times_from_text("1/1000,0.5,2"), testing::ElementsAre(0.001, 0.5, 2));
+  for (const char* text : {"", "1/0", "0", "-1", "1/2/3", "fast", "1,,2", "inf"})
+    EXPECT_THAT(tests::message_of<UsageError>([&] { exposure_times_from_text(text); }), HasSubstr("--times")) << text;
+}
+
+/// The times are in the wrong order: no response explains the codes.
+TEST_F(BadPhotographs, TimesThatCannotBeAreNoticed) {
+  const auto files = tests::write_bracket(tests::photograph(BallScene{}), {1, 0.25, 1.0 / 16}, 0.7, folder.path("p"));
+  const auto bracket = std::get<Bracket>(read_view(files, {1.0 / 16, 0.25, 1}));
+  EXPECT_THAT(tests::message_of<Error>([&] { recover_response(bracket); }), HasSubstr("exposure times right"));
+}
+
+TEST_F(BadPhotographs, PictureWithoutABallAsksForIt) {
+  MergeRequest plain;
+  plain.views = {{png("a.png", 64)}};
+  EXPECT_THAT(tests::message_of<Error>([&] { merge_probe(plain, log); }),
+              testing::AllOf(HasSubstr("a.png"), HasSubstr("--ball")));
+  plain.balls = {{{32, 32}, 60}};
+  EXPECT_THAT(tests::message_of<UsageError>([&] { merge_probe(plain, log); }), HasSubstr("does not lie in the picture"));
+}
+
+TEST_F(BadPhotographs, RequestsThatContradictThemselvesAreRefused) {
+  const std::string a = png("a.png", 64);
+  const auto refused = [&](const MergeRequest& request) {
+    return tests::message_of<UsageError>([&] { merge_probe(request, log); });
+  };
+  EXPECT_THAT(refused({}), HasSubstr("no photographs"));
+  MergeRequest views;
+  views.views = {{a}, {a}};
+  EXPECT_THAT(refused(views), HasSubstr("--view-yaw for each"));
+  views.view_yaw_deg = {0};
+  EXPECT_THAT(refused(views), HasSubstr("--view-yaw is given for 1 views, but there are 2"));
+  MergeRequest tag;
+  tag.views = {{a}};
+  tag.tag = tracking::TagTarget{};
+  EXPECT_THAT(refused(tag), HasSubstr("--camera FILE or --fov"));
+  tag.view_yaw_deg = {0};
+  EXPECT_THAT(refused(tag), HasSubstr("stand for a tag"));
+}
+
+/// A black picture of a ball is a black probe, not a crash.
+TEST_F(BadPhotographs, BlackPictureGivesABlackProbe) {
+  const render::Image black(64, 64);
+  MergeRequest request;
+  request.views = {{write_exr("black.exr", black)}};
+  request.balls = {{{31.5, 31.5}, 30}};
+  for (const float value : merge_probe(request, log).image.data) ASSERT_EQ(value, 0.0f);
+}
+
 }  // namespace
 }  // namespace catchlight::app
