@@ -5,8 +5,9 @@
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
 
-#include "app/commands.hpp"
+#include "app/command_probe.hpp"
 #include "app/output_file.hpp"
+#include "app/probe_preview.hpp"
 #include "app/probe_statistics.hpp"
 #include "app/text.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 struct ProbeArguments {
   std::string input, layout_in, output, layout_out = "latlong";
   bool strict = false, overwrite = false;
-  int width_px = 0, size_px = 256, bands = 3;
+  int width_px = 0, size_px = 256, preview_px = 1200, bands = 3;
   double ev = 0, yaw_deg = 0;
 };
 
@@ -120,18 +121,26 @@ cv::Mat png_pixels(const render::Image& linear_premultiplied, double ev) {
   return pixels;
 }
 
-void write_ball(const ProbeArguments& arguments, Log& log) {
+void write_png(const ProbeArguments& arguments, const cv::Mat& pixels) {
+  std::vector<std::uint8_t> png;
+  cv::imencode(".png", pixels, png);
+  write_text_file(arguments.output, {reinterpret_cast<const char*>(png.data()), png.size()}, arguments.overwrite);
+}
+
+void check_png_output(const ProbeArguments& arguments) {
   if (!arguments.output.ends_with(".png"))
     throw UsageError(arguments.output + ": the preview is a PNG; give -o a name that ends in .png");
-  PendingFile output(arguments.output, arguments.overwrite);
-  const render::Image ball = mirror_ball_preview(load(arguments, log), arguments.yaw_deg, arguments.size_px);
-  bool written = false;
-  try {
-    written = cv::imwrite(output.pending_path(), png_pixels(ball, arguments.ev));
-  } catch (const cv::Exception&) {
-  }
-  if (!written) throw Error(arguments.output + ": cannot be written; is its folder writable and the disk not full?");
-  output.commit();
+  check_output_path(arguments.output, arguments.overwrite);
+}
+
+void write_ball(const ProbeArguments& arguments, Log& log) {
+  check_png_output(arguments);
+  write_png(arguments, png_pixels(mirror_ball_preview(load(arguments, log), arguments.yaw_deg, arguments.size_px), arguments.ev));
+}
+
+void write_preview(const ProbeArguments& arguments, Log& log) {
+  check_png_output(arguments);
+  write_png(arguments, probe_preview(load(arguments, log), arguments.yaw_deg, arguments.ev, arguments.preview_px));
 }
 
 using Run = void (*)(const ProbeArguments&, Log&);
@@ -164,6 +173,7 @@ void add_bands(CLI::App& command, ProbeArguments& arguments) {
 void set_up_probe(CLI::App& command, Context& context) {
   command.require_subcommand(1);
   const auto arguments = std::make_shared<ProbeArguments>();
+  add_probe_merge(command, context);
 
   CLI::App& info = add_probe_command(command, "info", "Size, range, where the light comes from", arguments, print_info, context);
   add_bands(info, *arguments);
@@ -191,6 +201,15 @@ void set_up_probe(CLI::App& command, Context& context) {
   ball.add_option("--ev", arguments->ev, "Exposure")->check(CLI::Range(-30.0, 30.0))->capture_default_str();
   ball.add_option("--yaw", arguments->yaw_deg, "As probe.yaw_deg of the scene file")->check(CLI::Range(-360.0, 360.0));
   add_overwrite(ball, *arguments);
+
+  CLI::App& preview =
+      add_probe_command(command, "preview", "Shows which way round: panorama, balls, plan", arguments, write_preview, context);
+  preview.footer("For a tag flat on a table. docs/probes.md says how to read it.");
+  preview.add_option("-o,--output", arguments->output, "PNG file")->required();
+  preview.add_option("--size", arguments->preview_px, "Width in pixels")->check(CLI::Range(300, 8192))->capture_default_str();
+  preview.add_option("--ev", arguments->ev, "Brighter or darker")->check(CLI::Range(-30.0, 30.0))->capture_default_str();
+  preview.add_option("--yaw", arguments->yaw_deg, "As probe.yaw_deg of the scene file")->check(CLI::Range(-360.0, 360.0));
+  add_overwrite(preview, *arguments);
 }
 
 }  // namespace catchlight::app

@@ -60,11 +60,12 @@ ProbeLayout layout_of(const std::string& path, const ExrPicture& picture, const 
 void clean_texels(const std::string& path, Probe& probe, bool strict, const WarningHandler& warn) {
   std::size_t bad = 0, lit = 0;
   std::string first;
+  const bool has_outside = is_disc(probe.layout) || probe.layout == ProbeLayout::cube_cross;
   for (int y = 0; y < probe.image.height; ++y) {
     for (int x = 0; x < probe.image.width; ++x) {
       float* value = probe.image.pixel(x, y);
       const bool ok = std::all_of(value, value + 3, [](float v) { return std::isfinite(v) && v >= 0; });
-      if (!direction_from_texel(probe.layout, probe.image.width, probe.image.height, x, y)) {
+      if (has_outside && !direction_from_texel(probe.layout, probe.image.width, probe.image.height, x, y)) {
         std::fill(value, value + 3, 0.0f);
       } else if (!ok) {
         if (bad++ == 0) first = std::to_string(x) + ", " + std::to_string(y);

@@ -93,8 +93,8 @@ double disc_solid_angle(ProbeLayout layout, int width, int height, int x, int y)
 }  // namespace
 
 double texel_solid_angle(ProbeLayout layout, int width, int height, int x, int y) {
-  if (!direction_from_texel(layout, width, height, x, y)) return 0.0;
   if (layout == ProbeLayout::latlong) return latlong_solid_angle(width, height, x, y);
+  if (!direction_from_texel(layout, width, height, x, y)) return 0.0;
   return is_disc(layout) ? disc_solid_angle(layout, width, height, x, y) : cube_solid_angle(layout, width, x, y);
 }
 
