@@ -130,6 +130,21 @@ std::vector<int> sample_counts(const std::vector<ProbeLight>& lights, const Spli
   return counts;
 }
 
+// A light's outermost texels may lie in cells that are too dim as a whole: those go to their brightest neighbour's cluster.
+std::vector<int> with_rims(const Brightness& sky, const LightClusters& clusters) {
+  std::vector<int> cluster_of = clusters.cluster_of;
+  for (int cell = 0; cell < sky.grid.cells(); ++cell) {
+    if (clusters.cluster_of[cell] != kNoCluster) continue;
+    double brightest = 0;
+    for (const int neighbour : sky.grid.neighbours(cell)) {
+      if (clusters.cluster_of[neighbour] == kNoCluster || sky.luminance[neighbour] <= brightest) continue;
+      brightest = sky.luminance[neighbour];
+      cluster_of[cell] = clusters.cluster_of[neighbour];
+    }
+  }
+  return cluster_of;
+}
+
 struct Cluster {
   double share = 0;
   std::vector<glm::ivec2> texels;
@@ -141,13 +156,14 @@ std::vector<Cluster> worthy_clusters(const Probe& probe, const Brightness& sky, 
   const double negligible = kDisplayGamma * options.tolerance * total_flux / 4;
   const LightClusters clusters = cluster_lights(sky.grid, sky.luminance, sky.solid_angle_sr, threshold, negligible);
   const std::vector<double> shares = shares_that_pay(sky, clusters, threshold, total_flux, options);
+  const std::vector<int> cluster_at = with_rims(sky, clusters);
   std::vector<Cluster> found(clusters.count);
   for (int i = 0; i < clusters.count; ++i) found[i].share = shares[i];
   for (int y = 0; y < probe.image.height; ++y) {
     for (int x = 0; x < probe.image.width; ++x) {
       const int cell = sky.cell_of[static_cast<std::size_t>(y) * probe.image.width + x];
-      if (cell == kNoCluster || clusters.cluster_of[cell] == kNoCluster) continue;
-      if (luminance_of(probe.image.pixel(x, y)) > threshold) found[clusters.cluster_of[cell]].texels.emplace_back(x, y);
+      if (cell == kNoCluster || cluster_at[cell] == kNoCluster) continue;
+      if (luminance_of(probe.image.pixel(x, y)) > threshold) found[cluster_at[cell]].texels.emplace_back(x, y);
     }
   }
   std::erase_if(found, [](const Cluster& cluster) { return cluster.share == 0 || cluster.texels.empty(); });

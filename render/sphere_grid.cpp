@@ -44,7 +44,7 @@ std::vector<int> SphereGrid::neighbours(int cell) const {
   const double width = 1.0 / columns(ring), from = column * width;
   std::vector<int> cells;
   for (int other = std::max(ring - 1, 0); other <= std::min(ring + 1, rings_ - 1); ++other) {
-    const double aside = 0.5 / std::max(columns(ring), columns(other));  // the same seen from the other cell
+    const double aside = 0.5 / std::max(columns(ring), columns(other)) + 1e-9;  // the same seen from the other cell
     add_overlapping(other, from - aside, from + width + aside, cells);
   }
   // Across a pole lie the cells of its own ring.

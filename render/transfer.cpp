@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "render/buried_vertices.hpp"
 #include "render/hemisphere_rays.hpp"
 #include "render/parallel.hpp"
 #include "render/ray_scene.hpp"
@@ -85,13 +86,14 @@ class Baker {
     unshadowed_lobe(glm::vec3(0, 0, 1), options_.bands, transfer.receiver_unshadowed);
     receiver_sends_back_ = options_.bounces > 0 && grid.points() > 0 && options_.receiver_albedo.known();
     transfer.object_direct.resize(vertices * count_);
-    for_points(vertices, [&](std::size_t v) { bake_direct(v, coefficients(transfer.object_direct, v)); });
+    std::vector<char> is_buried(vertices);
+    for_points(vertices, [&](std::size_t v) { is_buried[v] = bake_direct(v, coefficients(transfer.object_direct, v)); });
+    const BuriedVertices buried(mesh_, is_buried);
+    buried.fill(transfer.object_direct);
     const std::vector<char> covered = bake_receiver_direct(transfer);
     transfer.object = transfer.object_direct;
     transfer.receiver = transfer.receiver_direct;
-    bake_bounces(transfer);
-    finish_receiver(transfer, covered, transfer.receiver_direct);
-    finish_receiver(transfer, covered, transfer.receiver);
+    bake_bounces(transfer, buried, covered);
     if (progress_) progress_(1.0);  // light may have died away before the last bounce
     return transfer;
   }
@@ -124,22 +126,39 @@ class Baker {
 
   // The closed form of the open hemisphere less what the occluded rays would have brought: exact where nothing is in the way, and
   // elsewhere only the blocked part is uncertain.
-  void bake_direct(std::size_t v, std::span<glm::vec3> out) const {
+  // Returns whether the vertex lies within another part.
+  bool bake_direct(std::size_t v, std::span<glm::vec3> out) const {
     const Vertex& vertex = mesh_.vertices[v];
-    if (albedo_[v] == glm::vec3(0)) return;
+    if (albedo_[v] == glm::vec3(0)) return false;
+    int escaped = 0;
     Basis lobe, basis, blocked{};
     unshadowed_lobe(vertex.normal, options_.bands, std::span(lobe).first(count_));
     for_rays(vertex.position_m, vertex.normal, options_.rays, [&](const glm::vec3& origin_m, const glm::vec3& direction) {
-      if (!scene_.occluded(origin_m, direction)) return;
+      if (!scene_.occluded(origin_m, direction)) {
+        ++escaped;
+        return;
+      }
       evaluate_sh(direction, options_.bands, std::span(basis).first(count_));
       for (int i = 0; i < count_; ++i) blocked[i] += basis[i];
     });
     for (int i = 0; i < count_; ++i) out[i] = albedo_[v] * (lobe[i] - blocked[i] / static_cast<float>(options_.rays));
+    return escaped == 0 && looks_at_backs(vertex);
+  }
+
+  // As from within a solid; in a narrow gap or a closed room the rays meet fronts.
+  bool looks_at_backs(const Vertex& vertex) const {
+    constexpr int kRays = 64;
+    int backs = 0;
+    for_rays(vertex.position_m, vertex.normal, kRays, [&](const glm::vec3& origin_m, const glm::vec3& direction) {
+      const auto hit = scene_.closest_hit(origin_m, direction);
+      backs += hit && !hit->front_facing;
+    });
+    return backs > kRays / 2;
   }
 
   // Light on its way over one more surface each time, until it stops mattering. What came last is passed on alone, so that fewer
   // rays do for it the less it is.
-  void bake_bounces(Transfer& transfer) {
+  void bake_bounces(Transfer& transfer, const BuriedVertices& buried, const std::vector<char>& covered) {
     const std::size_t vertices = mesh_.vertices.size();
     std::vector<glm::vec3> last = transfer.object_direct, sent_up = sent_up_by(transfer.receiver_direct, transfer.grid);
     for (int bounce = 0; bounce < options_.bounces && largest(last) > kLeastBounce * largest(transfer.object); ++bounce) {
@@ -148,6 +167,8 @@ class Baker {
       for_points(vertices, [&](std::size_t v) { gather(v, rays, last, transfer, sent_up, bounce == 0, coefficients(next, v)); });
       for_points(transfer.grid.points(),
                  [&](std::size_t p) { gather_on_receiver(p, rays, last, transfer.grid, coefficients(on_receiver, p)); });
+      buried.fill(next);
+      finish_receiver(transfer.grid, covered, std::vector(count_, glm::vec3(0)), on_receiver);
       add(next, transfer.object);
       add(on_receiver, transfer.receiver);
       sent_up = sent_up_by(on_receiver, transfer.grid);
@@ -256,6 +277,8 @@ class Baker {
       for (int i = 0; i < count_; ++i) out[i] = glm::vec3(transfer.receiver_unshadowed[i] - blocked_light[i]);
       covered[p] = blocked > 1 - 0.5f / static_cast<float>(options_.rays) && inside > 0.25f;
     });
+    const std::vector<glm::vec3> unshadowed(transfer.receiver_unshadowed.begin(), transfer.receiver_unshadowed.end());
+    finish_receiver(grid, covered, unshadowed, transfer.receiver_direct);
     return covered;
   }
 
@@ -268,10 +291,10 @@ class Baker {
     });
   }
 
-  static void finish_receiver(const Transfer& transfer, const std::vector<char>& covered, std::span<glm::vec3> values) {
-    const std::vector<glm::vec3> unshadowed(transfer.receiver_unshadowed.begin(), transfer.receiver_unshadowed.end());
-    fill_covered(transfer.grid, covered, values);
-    fade_rim(transfer.grid, unshadowed, values);
+  static void finish_receiver(const ReceiverGrid& grid, const std::vector<char>& covered, const std::vector<glm::vec3>& beyond,
+                              std::span<glm::vec3> values) {
+    fill_covered(grid, covered, values);
+    fade_rim(grid, beyond, values);
   }
 
   const Mesh& mesh_;

@@ -76,16 +76,18 @@ TEST(ProbeSplit, FindsALampWhereItIsAsLargeAndBrightAsItIs) {
   ASSERT_EQ(split.lights.size(), 1u);
   const ProbeLight& light = split.lights[0];
   EXPECT_LT(angle(light.direction, lamp.direction), 1e-3);
-  EXPECT_NEAR(light.solid_angle_sr, lamp.solid_angle(), 0.2 * lamp.solid_angle()) << "the texels on its rim count whole";
+  EXPECT_GT(light.solid_angle_sr, lamp.solid_angle());
+  const Lamp with_rim{lamp.direction, lamp.radius_rad + 2 * kPi / 512, lamp.radiance};
+  EXPECT_LT(light.solid_angle_sr, with_rim.solid_angle()) << "the texels on its rim count whole";
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(light.irradiance[c], lamp.radiance[c] * lamp.solid_angle(), 0.06 * light.irradiance[c]);
   expect_sums_to(split, probe);
-  for (const float value : split.rest.image.data) EXPECT_LT(value, 3 * split.threshold) << "no bright texel is left behind";
+  for (const float value : split.rest.image.data) EXPECT_LT(value, 1.5 * split.threshold) << "no bright texel is left behind";
 }
 
 TEST(ProbeSplit, PartsSumToTheWholeInEveryLayout) {
   for (const ProbeLayout layout : {ProbeLayout::latlong, ProbeLayout::angular, ProbeLayout::cube, ProbeLayout::cube_cross}) {
     const Probe probe =
-        convert(sky_with({{towards(50, 20), 0.08, {9, 9, 9}}, {towards(-30, 200), 0.04, {50, 20, 9}}}), layout, 256);
+        convert(sky_with({{towards(50, 20), 0.08, {9, 9, 9}}, {towards(-30, 200), 0.04, {50, 20, 9}}}), layout, 192);
     const SplitProbe split = split_lights(probe, {});
     EXPECT_EQ(split.lights.size(), 2u) << name_of(layout);
     expect_sums_to(split, probe);
