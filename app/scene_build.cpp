@@ -105,7 +105,7 @@ void split_off_lights(BuiltScene& built, const SceneSettings& settings) {
       render::split_lights(built.probe, {built.scene.transfer.bands, settings.quality.tolerance, settings.quality.light_samples});
   built.scene.lights = render::samples_of(split, built.light_from_probe);
   if (!built.scene.lights.empty())
-    built.scene.rest_reflections = render::prefilter_reflections(split.rest, built.light_from_probe);
+    built.scene.rest_reflections = render::prefilter_reflections(split.mirrored, built.light_from_probe);
   const std::string why = split.lights.empty() ? "nothing in the probe throws a shadow that its bands cannot hold"
                                                : "far brighter than the rest, and sharper than its bands";
   built.plan.push_back({"lights", std::to_string(split.lights.size()), settings.quality.light_samples > 0 ? why : "set by hand"});

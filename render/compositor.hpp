@@ -41,7 +41,7 @@ struct RenderScene {
   ShRgb light;                           ///< all of it: transfer.bands^2 coefficients
   std::vector<LightSample> lights = {};  ///< split off; at most kMaxLightSamples, none where the transfer has no direct part
   ReflectionMap reflections;             ///< all of it
-  ReflectionMap rest_reflections = {};   ///< less the lights; used where there are any
+  ReflectionMap rest_reflections = {};   ///< less the compact lights; used where there are any
   glm::vec3 probe_in_tag_m{0.0f};        ///< where the probe was captured
 };
 

@@ -33,7 +33,7 @@ glm::dvec3 variance(std::span<const LightPiece> region, const glm::dvec3& middle
 }
 
 LightSample sample_of(std::span<const LightPiece> region) {
-  LightSample sample{middle_of(region), glm::dvec3(0), 0};
+  LightSample sample{middle_of(region), glm::dvec3(0)};
   double weighted_square = 0, weight = 0;
   for (const LightPiece& piece : region) {
     const glm::dvec3 aside = piece.direction - sample.direction;

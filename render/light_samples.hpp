@@ -14,6 +14,7 @@ struct LightSample {
   glm::dvec3 direction;   ///< towards the light, length 1: the middle of its flux
   glm::dvec3 irradiance;  ///< on a surface that faces it: the integral of radiance over its solid angle
   double spread_rad = 0;  ///< root mean square angle of its light from `direction`, along one axis
+  bool compact = true;    ///< part of a lamp rather than of the sky: a highlight on rough surfaces
 };
 
 /// A piece of a light as the probe's texels give it.

@@ -172,22 +172,34 @@ std::vector<Cluster> worthy_clusters(const Probe& probe, const Brightness& sky, 
   return found;
 }
 
-// Cuts the cluster's texels in `rest` down to the threshold. What it takes, in at least `wanted` pieces.
-std::vector<LightPiece> take_out(const Cluster& cluster, double threshold, int wanted, Probe& rest) {
-  const int width = rest.image.width, height = rest.image.height;
+// Share of a texel's radiance that stays when it is cut down to the threshold.
+float kept_share(const float* radiance, double threshold) {
+  return static_cast<float>(threshold / luminance_of(radiance));
+}
+
+void cut_down(const Cluster& cluster, double threshold, Probe& probe) {
+  for (const glm::ivec2& texel : cluster.texels) {
+    float* radiance = probe.image.pixel(texel.x, texel.y);
+    const float kept = kept_share(radiance, threshold);
+    for (int c = 0; c < 3; ++c) radiance[c] *= kept;
+  }
+}
+
+// What cut_down takes, in at least `wanted` pieces.
+std::vector<LightPiece> pieces_above(const Cluster& cluster, double threshold, int wanted, const Probe& probe) {
+  const int width = probe.image.width, height = probe.image.height;
   const int across = static_cast<int>(std::ceil(std::sqrt(wanted / static_cast<double>(cluster.texels.size()))));
   std::vector<LightPiece> pieces;
   for (const glm::ivec2& texel : cluster.texels) {
-    float* radiance = rest.image.pixel(texel.x, texel.y);
-    const float kept = static_cast<float>(threshold / luminance_of(radiance));
-    const glm::dvec3 before(radiance[0], radiance[1], radiance[2]);
-    for (int c = 0; c < 3; ++c) radiance[c] *= kept;
-    const glm::dvec3 taken = before - glm::dvec3(radiance[0], radiance[1], radiance[2]);
-    const double solid_angle = texel_solid_angle(rest.layout, width, height, texel.x, texel.y) / (across * across);
+    const float* radiance = probe.image.pixel(texel.x, texel.y);
+    const float kept = kept_share(radiance, threshold);
+    glm::dvec3 taken;
+    for (int c = 0; c < 3; ++c) taken[c] = static_cast<double>(radiance[c]) - static_cast<double>(radiance[c] * kept);
+    const double solid_angle = texel_solid_angle(probe.layout, width, height, texel.x, texel.y) / (across * across);
+    const auto middle = direction_from_texel(probe.layout, width, height, texel.x, texel.y);
     for (int i = 0; i < across * across; ++i) {
       const glm::dvec2 within = (glm::dvec2(i % across, i / across) + 0.5) / static_cast<double>(across) - 0.5;
-      const auto direction = direction_from_texel(rest.layout, width, height, texel.x + within.x, texel.y + within.y);
-      const auto middle = direction_from_texel(rest.layout, width, height, texel.x, texel.y);
+      const auto direction = direction_from_texel(probe.layout, width, height, texel.x + within.x, texel.y + within.y);
       pieces.push_back({direction.value_or(*middle), solid_angle * taken, solid_angle});
     }
   }
@@ -197,7 +209,7 @@ std::vector<LightPiece> take_out(const Cluster& cluster, double threshold, int w
 }  // namespace
 
 SplitProbe split_lights(const Probe& probe, const SplitOptions& options) {
-  SplitProbe split{{}, probe, 0};
+  SplitProbe split{{}, probe, probe, 0};
   const Brightness sky = gather(probe);
   const double total_flux = flux_below(sky, INFINITY);
   if (!(total_flux > 0) || options.max_samples < 1) return split;
@@ -211,11 +223,16 @@ SplitProbe split_lights(const Probe& probe, const SplitOptions& options) {
   }
   const std::vector<int> counts = sample_counts(split.lights, options);
   for (std::size_t i = 0; i < clusters.size(); ++i) {
-    const std::vector<LightPiece> pieces = take_out(clusters[i], split.threshold, kPiecesPerSample * counts[i], split.rest);
+    const std::vector<LightPiece> pieces = pieces_above(clusters[i], split.threshold, kPiecesPerSample * counts[i], probe);
+    cut_down(clusters[i], split.threshold, split.rest);
     const LightSample whole = median_cut(pieces, 1).front();
     split.lights[i].direction = whole.direction;
     split.lights[i].irradiance = whole.irradiance;
     split.lights[i].samples = median_cut(pieces, counts[i]);
+    split.lights[i].compact = std::ranges::all_of(
+        split.lights[i].samples, [](const LightSample& sample) { return sample.spread_rad <= kCompactSpread_rad; });
+    for (LightSample& sample : split.lights[i].samples) sample.compact = split.lights[i].compact;
+    if (split.lights[i].compact) cut_down(clusters[i], split.threshold, split.mirrored);
   }
   return split;
 }

@@ -15,13 +15,15 @@ struct ProbeLight {
   glm::dvec3 direction;   ///< as of the samples
   glm::dvec3 irradiance;  ///< sum of the samples'
   double solid_angle_sr = 0;
-  double share = 0;  ///< what a surface facing it would lose in its shadow, of an average surface's luminance; may exceed 1
+  bool compact = false;  ///< no sample is wider than kCompactSpread_rad: together they draw the light's shape on a rough surface
+  double share = 0;      ///< what a surface facing it would lose in its shadow, of an average surface's luminance; may exceed 1
   std::vector<LightSample> samples;
 };
 
 struct SplitProbe {
   std::vector<ProbeLight> lights;  ///< brightest first
   Probe rest;                      ///< same layout; lights and rest add up to the probe texel by texel
+  Probe mirrored;                  ///< the probe less the compact lights alone, for rough mirrors that add those as highlights
   double threshold = 0;            ///< luminance that the rest was cut down to where a light was
 };
 
@@ -35,6 +37,7 @@ struct SplitOptions {
 /// Peaks are told apart by watershed (light_clusters.hpp), and split off only where a shadow of the light that the bands cannot
 /// hold would be visible. A black probe, or one without contrast, has no lights.
 inline constexpr double kLightContrast = 5;
+inline constexpr double kCompactSpread_rad = 0.03;  // about what GGX of roughness 0.17 blurs
 SplitProbe split_lights(const Probe& probe, const SplitOptions& options);
 
 /// All samples, brightest light first, in the frame that `rotation` takes the probe's to.

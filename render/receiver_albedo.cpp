@@ -64,7 +64,7 @@ std::optional<ReceiverAlbedo> albedo_from_probe(const Probe& probe, const glm::d
       const glm::dvec3 radiance = mean_radiance(probe, probe_from_tag, x, y);
       for (int c = 0; c < 3; ++c) {
         const double share = arriving[c] > 0 ? glm::pi<double>() * radiance[c] / arriving[c] : 0.0;
-        albedo.image.pixel(x, y)[c] = static_cast<float>(std::round(share / kAlbedoStep) * kAlbedoStep);
+        albedo.image.pixel(x, y)[c] = static_cast<float>(std::round(std::min(share, 1.0) / kAlbedoStep) * kAlbedoStep);
       }
     }
   }

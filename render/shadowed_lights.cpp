@@ -63,7 +63,7 @@ void ShadowedLights::update(std::span<const LightSample> samples_tag, const std:
     const LightSample& sample = samples_tag[i];
     block.to_light[i] = glm::vec4(glm::vec3(sample.direction), static_cast<float>(sample.spread_rad));
     block.right[i] = glm::vec4(glm::vec3(any_perpendicular(sample.direction)), 0);
-    block.irradiance[i] = glm::vec4(glm::vec3(sample.irradiance), 0);
+    block.irradiance[i] = glm::vec4(glm::vec3(sample.irradiance), sample.compact ? 1 : 0);
   }
   uniforms_.update(block);
   if (count_ == 0) return;

@@ -103,7 +103,7 @@ UNIFORM_BLOCK(LightSampleUniforms, BINDING_LIGHT_SAMPLES) {
   vec4 lift_m;              // x: how far above a surface its shadows are looked up
   vec4 to_light[MAX_LIGHT_SAMPLES];    // tag frame, length 1; w: spread (rad)
   vec4 right[MAX_LIGHT_SAMPLES];       // of the shadow map
-  vec4 irradiance[MAX_LIGHT_SAMPLES];  // on a surface that faces the light
+  vec4 irradiance[MAX_LIGHT_SAMPLES];  // on a surface that faces the light; w: 1 where it makes highlights
 } BLOCK_NAME(light_samples);
 
 UNIFORM_BLOCK(ReceiverUniforms, BINDING_RECEIVER) {

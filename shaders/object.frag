@@ -50,7 +50,8 @@ void main() {
     if (arriving == vec3(0.0)) continue;
     vec4 to_light = light_samples.to_light[i];
     diffuse += arriving * albedo / kPi;
-    if (highlights) reflected += arriving * glossy_brdf(n, to_viewer, to_light.xyz, to_light.w, alpha, f0, f90);
+    if (highlights && light_samples.irradiance[i].w > 0.0)
+      reflected += arriving * glossy_brdf(n, to_viewer, to_light.xyz, to_light.w, alpha, f0, f90);
   }
 
   // What the dielectric boundary mirrors does not reach the pigment below it.

@@ -1,6 +1,6 @@
 // What lies around the object: the receiver, seen in the frame itself where the frame shows it, and the probe.
 layout(binding = TEXTURE_PROBE) uniform samplerCube probe;         // level by perceptual roughness
-layout(binding = TEXTURE_REST) uniform samplerCube rest;           // the same less the lights
+layout(binding = TEXTURE_REST) uniform samplerCube rest;           // the same less the lights that make highlights
 layout(binding = TEXTURE_PLATE_LIGHT) uniform sampler2D plate_light;  // whole frame, radiance, mip levels
 
 // Over the outer share of the frame the probe takes over from it.

@@ -94,6 +94,18 @@ TEST(ProbeSplit, PartsSumToTheWholeInEveryLayout) {
   }
 }
 
+TEST(ProbeSplit, OnlyLightsWithFineSamplesAreTakenOutOfMirrors) {
+  const Lamp lamp{towards(40, 70), 0.04, glm::vec3(40)}, window{towards(20, -80), 0.6, glm::vec3(3)};
+  const SplitProbe split = split_lights(sky_with({lamp, window}), {});
+  ASSERT_EQ(split.lights.size(), 2u);
+  for (const ProbeLight& light : split.lights) {
+    EXPECT_EQ(light.compact, angle(light.direction, lamp.direction) < 0.1);
+    for (const LightSample& of_it : light.samples) EXPECT_EQ(of_it.compact, light.compact);
+  }
+  EXPECT_LT(sample(split.mirrored, lamp.direction).g, 1.1 * split.threshold);
+  EXPECT_NEAR(sample(split.mirrored, window.direction).g, 3.1, 0.01);
+}
+
 TEST(ProbeSplit, NeighbouringLampsStayTwoLights) {
   const double radius = 0.03;
   for (const double gap_deg : {6.0, 12.0}) {
