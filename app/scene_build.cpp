@@ -21,6 +21,10 @@ constexpr std::size_t kMaxVertices = 200'000;
 /// Of the object's transfer.
 constexpr std::size_t kTransferBytes = std::size_t{512} << 20;
 
+/// Of all vertices together, so that a million triangles bake in minutes; but never fewer a vertex than kLeastRays.
+constexpr std::size_t kMostRays = std::size_t{1} << 26;
+constexpr int kLeastRays = 64;
+
 /// The error of low-discrepancy rays falls about as one over their number.
 constexpr double kRayErrorFactor = 4;
 
@@ -43,11 +47,18 @@ int rays_for_tolerance(double tolerance) {
   return static_cast<int>(std::bit_ceil(wanted));
 }
 
-int choose_rays(const SceneSettings& settings, std::vector<PlanEntry>& plan) {
-  const bool by_hand = settings.is_by_hand("quality.rays");
-  const int rays = by_hand ? settings.quality.rays : rays_for_tolerance(settings.quality.tolerance);
-  plan.push_back(
-      {"rays", std::to_string(rays), by_hand ? "set by hand" : "for a tolerance of " + number_text(settings.quality.tolerance)});
+int choose_rays(const SceneSettings& settings, std::size_t vertices, std::vector<PlanEntry>& plan) {
+  if (settings.is_by_hand("quality.rays")) {
+    plan.push_back({"rays", std::to_string(settings.quality.rays), "set by hand"});
+    return settings.quality.rays;
+  }
+  int rays = rays_for_tolerance(settings.quality.tolerance);
+  std::string reason = "for a tolerance of " + number_text(settings.quality.tolerance);
+  while (rays > kLeastRays && vertices * static_cast<std::size_t>(rays) > kMostRays) {
+    rays /= 2;
+    reason = std::to_string(vertices) + " vertices";
+  }
+  plan.push_back({"rays", std::to_string(rays), reason});
   return rays;
 }
 
@@ -85,7 +96,7 @@ void bake(BuiltScene& built, const SceneSettings& settings, const WarningHandler
   const render::Mesh& mesh = built.scene.mesh;
   render::TransferOptions options;
   options.bands = choose_bands(settings, mesh.vertices.size(), built.plan);
-  options.rays = built.rays = choose_rays(settings, built.plan);
+  options.rays = built.rays = choose_rays(settings, mesh.vertices.size(), built.plan);
   options.bounces = settings.quality.bounces;
   const bool has_receiver = settings.receiver.plane == "tag";
   const render::ReceiverGrid grid =

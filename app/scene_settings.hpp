@@ -79,12 +79,12 @@ struct SceneSettings {
 
   struct Quality {
     double tolerance = 0.004;
-    int bands = 10;
+    int bands = 7;
     int rays = 1024;
     int bounces = 8;
     int light_samples = 96;
     int samples = 4;
-    int reflection_rays = 16;
+    int reflection_rays = 32;
     int receiver_points = 96;
   } quality;
 

@@ -6,6 +6,7 @@
 #include "render/hemisphere_rays.hpp"
 #include "render/prefilter.hpp"
 #include "render/probe.hpp"
+#include "render/probe_split.hpp"
 #include "render/ray_scene.hpp"
 #include "render/transfer.hpp"
 #include "tests/render/shapes.hpp"
@@ -49,6 +50,41 @@ void bake_by_bands(benchmark::State& state) {
 }
 BENCHMARK(bake_by_bands)->DenseRange(1, 9, 2)->Unit(benchmark::kMillisecond)->UseRealTime();
 
+// What a scene of 20 000 vertices has to wait for: 5 bands, 512 rays, two bounces, a receiver that sends light back.
+void bake_20k_vertices(benchmark::State& state) {
+  const Mesh mesh = two_spheres(70);
+  TransferOptions options;
+  options.bands = 5;
+  options.rays = 512;
+  options.bounces = 2;
+  options.receiver_albedo = constant_albedo(glm::vec3(0.8f));
+  const ReceiverGrid grid = receiver_grid_for(mesh, 96);
+  for (auto _ : state) benchmark::DoNotOptimize(bake_transfer(mesh, grid, options, {}));
+  state.counters["vertices"] = static_cast<double>(mesh.vertices.size());
+}
+BENCHMARK(bake_20k_vertices)->Unit(benchmark::kSecond)->UseRealTime()->Iterations(1);
+
+// Whenever light and tag turn against each other.
+void rotate_light(benchmark::State& state) {
+  const int bands = static_cast<int>(state.range(0));
+  const ShRgb light(sh_count(bands), glm::vec3(1));
+  double angle = 0;
+  for (auto _ : state) {
+    angle += 0.1;
+    const glm::dmat3 rotation(glm::dvec3(std::cos(angle), std::sin(angle), 0), glm::dvec3(-std::sin(angle), std::cos(angle), 0),
+                              glm::dvec3(0, 0, 1));
+    benchmark::DoNotOptimize(rotate_sh(light, rotation));
+  }
+}
+BENCHMARK(rotate_light)->Arg(3)->Arg(5)->Arg(10)->Unit(benchmark::kMicrosecond);
+
+void split_probe(benchmark::State& state) {
+  Probe probe = gradient_probe(static_cast<int>(state.range(0)));
+  for (int c = 0; c < 3; ++c) probe.image.pixel(probe.image.width / 3, probe.image.height / 3)[c] = 1e5f;
+  for (auto _ : state) benchmark::DoNotOptimize(split_lights(probe, {}));
+}
+BENCHMARK(split_probe)->Arg(512)->Arg(2048)->Unit(benchmark::kMillisecond)->UseRealTime();
+
 // One ray at a time, against the same rays tested with every triangle in turn.
 template <typename Occluded>
 void cast_rays(benchmark::State& state, const Occluded& occluded) {
@@ -63,7 +99,7 @@ void cast_with_embree(benchmark::State& state) {
   const RayScene scene(mesh);
   cast_rays(state, [&](const glm::vec3& origin, const glm::vec3& direction) { return scene.occluded(origin, direction); });
 }
-BENCHMARK(cast_with_embree)->Arg(8)->Arg(32);
+BENCHMARK(cast_with_embree)->Arg(8)->Arg(32)->Arg(70);
 
 bool hits_triangle(const glm::vec3& origin, const glm::vec3& direction, const glm::vec3& a, const glm::vec3& b,
                    const glm::vec3& c) {
@@ -82,7 +118,7 @@ void cast_by_brute_force(benchmark::State& state) {
     return false;
   });
 }
-BENCHMARK(cast_by_brute_force)->Arg(8)->Arg(32);
+BENCHMARK(cast_by_brute_force)->Arg(8)->Arg(32)->Arg(70);
 
 }  // namespace
 }  // namespace catchlight::render

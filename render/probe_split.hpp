@@ -37,7 +37,7 @@ struct SplitOptions {
 /// Peaks are told apart by watershed (light_clusters.hpp), and split off only where a shadow of the light that the bands cannot
 /// hold would be visible. A black probe, or one without contrast, has no lights.
 inline constexpr double kLightContrast = 5;
-inline constexpr double kCompactSpread_rad = 0.03;  // about what GGX of roughness 0.17 blurs
+inline constexpr double kCompactSpread_rad = 0.07;  // about what GGX of roughness 0.25 blurs
 SplitProbe split_lights(const Probe& probe, const SplitOptions& options);
 
 /// All samples, brightest light first, in the frame that `rotation` takes the probe's to.

@@ -20,7 +20,7 @@ struct TransferOptions {
   int bounces = 0;  ///< interreflections within the object, and between it and the receiver
   /// Of the receiver, where `bounces` and a grid are given: its light then reaches the object from its true place, darkened by
   /// the object, and only what lies above the plane counts as sky. Unknown: what is below is lit and as far away as the sky.
-  ReceiverAlbedo receiver_albedo;
+  ReceiverAlbedo receiver_albedo = {};
   std::uint32_t seed = 1;
   int threads = 0;  ///< 0: all cores. The result does not depend on it.
 };
