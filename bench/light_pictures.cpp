@@ -119,19 +119,21 @@ class Studio {
   glm::dvec3 on_tag_{0};
 };
 
-Part lights_alone(const Studio& studio, const render::Probe& lights) {
+Part lights_alone(const Studio& studio, const render::SplitProbe& split) {
+  const glm::dmat3& turn = studio.built().light_from_probe;
+  const render::Probe lights = difference(studio.built().probe, split.rest);
   Part part{studio.built().scene, studio.share_of(lights)};
   part.scene.light = render::project_to_sh(part.scene.lights, part.scene.transfer.bands);
-  part.scene.reflections = render::prefilter_reflections(lights, studio.built().light_from_probe);
-  for (render::Image& level : part.scene.rest_reflections.levels) std::fill(level.data.begin(), level.data.end(), 0.0f);
+  part.scene.reflections = render::prefilter_reflections(lights, turn);
+  part.scene.rest_reflections = render::prefilter_reflections(difference(split.mirrored, split.rest), turn);
   return part;
 }
 
-Part rest_alone(const Studio& studio, const render::Probe& rest) {
-  Part part{studio.built().scene, studio.share_of(rest)};
+Part rest_alone(const Studio& studio, const render::SplitProbe& split) {
+  Part part{studio.built().scene, studio.share_of(split.rest)};
   const render::ShRgb lights = render::project_to_sh(part.scene.lights, part.scene.transfer.bands);
   for (std::size_t i = 0; i < lights.size(); ++i) part.scene.light[i] -= lights[i];
-  part.scene.reflections = part.scene.rest_reflections;
+  part.scene.reflections = render::prefilter_reflections(split.rest, studio.built().light_from_probe);
   part.scene.lights.clear();
   part.scene.rest_reflections = {};
   return part;
@@ -179,8 +181,7 @@ void run(const std::string& location, const std::string& folder) {
               row_of(whole.image, lights.image, split.rest.image, kDarkProbe), probes);
   write(folder + "/light_probe.jpg", {probes});
 
-  const render::Image in_lights = studio.frame(lights_alone(studio, lights)),
-                      in_rest = studio.frame(rest_alone(studio, split.rest));
+  const render::Image in_lights = studio.frame(lights_alone(studio, split)), in_rest = studio.frame(rest_alone(studio, split));
   const render::Image in_both = studio.frame({studio.built().scene, glm::dvec3(1)});
   report_sum(in_lights, in_rest, in_both);
   const cv::Mat both = coded(in_both, 1), truth = studio.truth();
