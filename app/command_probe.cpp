@@ -4,12 +4,15 @@
 #include <glm/gtc/constants.hpp>
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
+#include <optional>
 
 #include "app/command_probe.hpp"
 #include "app/output_file.hpp"
 #include "app/probe_preview.hpp"
 #include "app/probe_statistics.hpp"
+#include "app/scene_settings.hpp"
 #include "app/text.hpp"
+#include "render/probe_split.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -19,6 +22,8 @@ struct ProbeArguments {
   bool strict = false, overwrite = false;
   int width_px = 0, size_px = 256, preview_px = 1200, bands = 3;
   double ev = 0, yaw_deg = 0;
+  std::string lights, rest;
+  SceneSettings::Quality quality;  // the split's defaults
 };
 
 render::Probe load(const ProbeArguments& arguments, Log& log) {
@@ -66,6 +71,54 @@ void print_info(const ProbeArguments& arguments, Log& log) {
     std::printf("SH band %zu            energy %s, %s %% of all held so far\n", l, shown(statistics.band_energy[l]).c_str(),
                 shown(share).c_str());
   }
+}
+
+void print_lights(const render::SplitProbe& split) {
+  print("lights", std::to_string(split.lights.size()));
+  if (split.lights.empty()) return;
+  print("rest", "at most " + shown(split.threshold) + " where a light was");
+  for (std::size_t i = 0; i < split.lights.size(); ++i) {
+    const render::ProbeLight& light = split.lights[i];
+    print(("light " + std::to_string(i)).c_str(), "from " + direction_text(light.direction));
+    print("  solid angle", shown(light.solid_angle_sr) + " sr");
+    print("  irradiance", shown(light.irradiance));
+    print("  share", shown(100 * light.share) + " % of the light on an average surface");
+    print("  samples", std::to_string(light.samples.size()));
+  }
+}
+
+void check_part(const std::string& path) {
+  if (!path.empty() && !path.ends_with(".exr"))
+    throw UsageError(path + ": the parts of a probe need float; give a name that ends in .exr");
+}
+
+/// None where nothing is to be written.
+std::optional<PendingFile> pending_part(const std::string& path, bool overwrite) {
+  return path.empty() ? std::nullopt : std::optional<PendingFile>(std::in_place, path, overwrite);
+}
+
+/// What the rest leaves of the probe.
+render::Probe lights_of(const render::Probe& probe, const render::Probe& rest) {
+  render::Probe lights = probe;
+  for (std::size_t i = 0; i < lights.image.data.size(); ++i) lights.image.data[i] -= rest.image.data[i];
+  return lights;
+}
+
+void split(const ProbeArguments& arguments, Log& log) {
+  check_part(arguments.lights);
+  check_part(arguments.rest);
+  if (!arguments.lights.empty() && arguments.lights == arguments.rest)
+    throw UsageError(arguments.rest + ": --lights and --rest need two different files");
+  std::optional<PendingFile> lights = pending_part(arguments.lights, arguments.overwrite);
+  std::optional<PendingFile> rest = pending_part(arguments.rest, arguments.overwrite);
+  const render::Probe probe = load(arguments, log);
+  const SceneSettings::Quality& quality = arguments.quality;
+  const render::SplitProbe parts = render::split_lights(probe, {quality.bands, quality.tolerance, quality.light_samples});
+  if (lights) render::save_probe(lights->pending_path(), lights_of(probe, parts.rest), render::ExrPrecision::full);
+  if (rest) render::save_probe(rest->pending_path(), parts.rest, render::ExrPrecision::full);
+  if (lights) lights->commit();
+  if (rest) rest->commit();
+  print_lights(parts);
 }
 
 void convert(const ProbeArguments& arguments, Log& log) {
@@ -162,10 +215,27 @@ void add_overwrite(CLI::App& command, ProbeArguments& arguments) {
   command.add_flag("-y,--overwrite", arguments.overwrite, "Overwrite the output where it exists");
 }
 
-void add_bands(CLI::App& command, ProbeArguments& arguments) {
-  command.add_option("--bands", arguments.bands, "Bands of spherical harmonics (n bands have n^2 coefficients)")
+void add_bands(CLI::App& command, int& bands) {
+  command.add_option("--bands", bands, "Bands of spherical harmonics (n bands have n^2 coefficients)")
       ->check(CLI::Range(1, render::kMaxShBands))
       ->capture_default_str();
+}
+
+void add_split(CLI::App& command, const std::shared_ptr<ProbeArguments>& arguments, Context& context) {
+  SceneSettings::Quality& quality = arguments->quality;
+  CLI::App& parts = add_probe_command(command, "split", "The lights that are split off, and the rest", arguments, split, context);
+  parts.footer(
+      "Options as quality.bands, quality.tolerance and quality.light_samples of the scene file. docs/light.md explains them.");
+  add_bands(parts, quality.bands);
+  parts.add_option("--tolerance", quality.tolerance, "Visible error allowed, as a share of white")
+      ->check(CLI::Range(0.0001, 0.5))
+      ->capture_default_str();
+  parts.add_option("--samples", quality.light_samples, "Of all lights together, at most; 0: no lights")
+      ->check(CLI::Range(0, render::kMaxLightSamples))
+      ->capture_default_str();
+  parts.add_option("--lights", arguments->lights, "Writes the lights alone: an OpenEXR file of the probe's layout, in float");
+  parts.add_option("--rest", arguments->rest, "Writes what is left; both add up to the probe");
+  add_overwrite(parts, *arguments);
 }
 
 }  // namespace
@@ -176,7 +246,9 @@ void set_up_probe(CLI::App& command, Context& context) {
   add_probe_merge(command, context);
 
   CLI::App& info = add_probe_command(command, "info", "Size, range, where the light comes from", arguments, print_info, context);
-  add_bands(info, *arguments);
+  add_bands(info, arguments->bands);
+
+  add_split(command, arguments, context);
 
   CLI::App& converted = add_probe_command(command, "convert", "The same light in another layout", arguments, convert, context);
   converted.add_option("OUT", arguments->output, "OpenEXR or Radiance HDR, by extension")->required();
@@ -186,7 +258,7 @@ void set_up_probe(CLI::App& command, Context& context) {
   add_overwrite(converted, *arguments);
 
   CLI::App& sh = add_probe_command(command, "sh", "Coefficients of spherical harmonics as text", arguments, write_sh, context);
-  add_bands(sh, *arguments);
+  add_bands(sh, arguments->bands);
   sh.add_option("-o,--output", arguments->output, "Text file; stdout where left out");
   add_overwrite(sh, *arguments);
 

@@ -16,6 +16,7 @@ PassClock::Scope::~Scope() {
 
 void PassClock::begin_frame() {
   names_.clear();
+  frame_start_ = std::chrono::steady_clock::now();
 }
 
 std::vector<PassTime> PassClock::times() const {

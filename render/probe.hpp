@@ -61,9 +61,14 @@ struct ProbeLoadOptions {
 /// (seams, poles) get their common mean. Throws Error (file named) otherwise.
 Probe load_probe(const std::string& path, const ProbeLoadOptions& options, const WarningHandler& warn);
 
-/// Writes OpenEXR (with the envmap attribute where OpenEXR knows the layout; in half, or in float where a value exceeds 65504) or
-/// Radiance HDR, by extension.
-void save_probe(const std::string& path, const Probe& probe);
+enum class ExrPrecision {
+  enough,  ///< half, or float where a value exceeds 65504
+  full     ///< float
+};
+
+/// Writes OpenEXR (with the envmap attribute where OpenEXR knows the layout) or Radiance HDR (of its own precision), by
+/// extension.
+void save_probe(const std::string& path, const Probe& probe, ExrPrecision precision = ExrPrecision::enough);
 
 /// c_i = sum of radiance * y_i * solid angle over all texels; no sampling noise.
 ShRgb project_to_sh(const Probe& probe, int bands);

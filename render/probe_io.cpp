@@ -101,7 +101,7 @@ Probe load_probe(const std::string& path, const ProbeLoadOptions& options, const
   return probe;
 }
 
-void save_probe(const std::string& path, const Probe& probe) {
+void save_probe(const std::string& path, const Probe& probe, ExrPrecision precision) {
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
   if (extension == ".hdr" || extension == ".pic") return write_hdr(path, probe.image);
@@ -111,7 +111,7 @@ void save_probe(const std::string& path, const Probe& probe) {
   if (probe.layout == ProbeLayout::cube) envmap = ExrEnvmap::cube;
   // Half holds at most 65504: a sun beyond it keeps its power in float.
   const bool beyond_half = std::any_of(probe.image.data.begin(), probe.image.data.end(), [](float v) { return v > 65504.0f; });
-  write_exr(path, {{"", &probe.image, {"R", "G", "B"}, beyond_half}}, envmap);
+  write_exr(path, {{"", &probe.image, {"R", "G", "B"}, precision == ExrPrecision::full || beyond_half}}, envmap);
 }
 
 }  // namespace catchlight::render

@@ -18,7 +18,7 @@ constexpr int kMaxRings = 360;  // cells of half a degree
 constexpr double kDisplayGamma = 2.2;
 /// Finer than this no shadow map tells samples apart: an eighth of the sun's disc.
 constexpr double kFinestSample_sr = 8e-6;
-/// Texels are divided until each sample has as many pieces to be cut from.
+/// Texels are divided until each sample has about as many pieces to be cut from.
 constexpr int kPiecesPerSample = 8;
 
 double luminance_of(const float* radiance) {
@@ -185,12 +185,22 @@ void cut_down(const Cluster& cluster, double threshold, Probe& probe) {
   }
 }
 
-// What cut_down takes, in at least `wanted` pieces.
+// Of the texel's light above the threshold.
+double flux_above(const Probe& probe, const glm::ivec2& texel, double threshold) {
+  return (luminance_of(probe.image.pixel(texel.x, texel.y)) - threshold) *
+         texel_solid_angle(probe.layout, probe.image.width, probe.image.height, texel.x, texel.y);
+}
+
+// What cut_down takes, in at least `wanted` pieces, none with much more of the light than others: a sun of few texels within a
+// bright sky is divided too.
 std::vector<LightPiece> pieces_above(const Cluster& cluster, double threshold, int wanted, const Probe& probe) {
   const int width = probe.image.width, height = probe.image.height;
-  const int across = static_cast<int>(std::ceil(std::sqrt(wanted / static_cast<double>(cluster.texels.size()))));
+  double total = 0;
+  for (const glm::ivec2& texel : cluster.texels) total += flux_above(probe, texel, threshold);
   std::vector<LightPiece> pieces;
   for (const glm::ivec2& texel : cluster.texels) {
+    const double pieces_here = wanted * flux_above(probe, texel, threshold) / total;
+    const int across = static_cast<int>(std::ceil(std::sqrt(std::max(pieces_here, 1.0))));
     const float* radiance = probe.image.pixel(texel.x, texel.y);
     const float kept = kept_share(radiance, threshold);
     glm::dvec3 taken;

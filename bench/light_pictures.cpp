@@ -1,0 +1,207 @@
+// The pictures of docs/light.md: a recording's probe as lights and rest, and one frame of it in the light of each. Writes
+// FOLDER/light_probe.jpg (probe | lights | rest, and below it the same darker), light_parts.jpg (frame in the lights alone | in
+// the rest alone | in both) and light_truth.jpg (both | truth | difference x 8).
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <glm/gtc/constants.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "app/media/source.hpp"
+#include "app/overlay.hpp"
+#include "render/probe_split.hpp"
+
+namespace {
+
+using namespace catchlight;
+using namespace catchlight::app;
+
+constexpr int kFrame = 16;
+constexpr int kWidth = 1200;                              // of the pictures
+constexpr double kBrightProbe = 0.24, kDarkProbe = 0.01;  // exposures
+
+struct Part {
+  render::RenderScene scene;
+  glm::dvec3 share;  ///< of the light on the tag
+};
+
+render::Image exposed(const render::Layers& layers, const glm::dvec3& gain) {
+  render::Image linear(layers.plate.width, layers.plate.height);
+  for (int y = 0; y < linear.height; ++y) {
+    for (int x = 0; x < linear.width; ++x) {
+      const float* plate = layers.plate.pixel(x, y);
+      const float *object = layers.object.pixel(x, y), *shadow = layers.shadow.pixel(x, y);
+      for (int c = 0; c < 3; ++c)
+        linear.pixel(x, y)[c] = static_cast<float>(gain[c] * (plate[c] * shadow[c] * (1 - object[3]) + object[c]));
+    }
+  }
+  return linear;
+}
+
+cv::Mat coded(const render::Image& linear, double gain) {
+  cv::Mat codes(linear.height, linear.width, CV_8UC3);
+  for (int y = 0; y < codes.rows; ++y) {
+    for (int x = 0; x < codes.cols; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        const double value = std::clamp(gain * linear.pixel(x, y)[c], 0.0, 1.0);
+        codes.at<cv::Vec3b>(y, x)[2 - c] = static_cast<std::uint8_t>(std::lround(255 * srgb_from_linear(value)));
+      }
+    }
+  }
+  return codes;
+}
+
+/// Keeps what a frame was made of.
+class LayersOutput : public FrameOutput {
+ public:
+  bool wants_layers() const override { return true; }
+  void write(const Frame&, const render::Composite& composite) override { layers = composite.layers; }
+
+  std::optional<render::Layers> layers;
+};
+
+render::Probe difference(const render::Probe& whole, const render::Probe& rest) {
+  render::Probe lights = whole;
+  for (std::size_t i = 0; i < lights.image.data.size(); ++i) lights.image.data[i] -= rest.image.data[i];
+  return lights;
+}
+
+class Studio {
+ public:
+  explicit Studio(const std::string& location) : recording_(open_recording(location)) {
+    recording_.scene.glare.enabled = false;  // the truth has none
+    stage_ = build_stage(recording_.scene, log_, report_);
+    const std::unique_ptr<MediaSource> source = MediaSource::open(recording_.footage);
+    camera_ = camera_for_footage(recording_, source->info().width_px, source->info().height_px);
+    rows_ = solve_track(*source, camera_, recording_.scene, range_, log_, report_).rows;
+    on_tag_ = stage_.built.still_irradiance_over_pi;
+  }
+
+  const BuiltScene& built() const { return stage_.built; }
+  const SceneSettings& settings() const { return recording_.scene; }
+
+  /// The light on the tag that `probe` brings.
+  glm::dvec3 share_of(const render::Probe& probe) const {
+    const glm::dvec3 up = glm::transpose(built().light_from_probe) * glm::dvec3(0, 0, 1);
+    return render::irradiance(probe, up) / glm::pi<double>() / on_tag_;
+  }
+
+  /// The whole frame, linear, as if the place had that part of its light alone: the plate is that much darker, and what is
+  /// exposed by the tag on it that much brighter, before all of it is put back to the exposure of the whole.
+  render::Image frame(const Part& part) {
+    render::CompositorSettings settings{
+        recording_.scene.glare, recording_.scene.quality.samples, recording_.scene.quality.reflection_rays, {}};
+    stage_.compositor = std::make_unique<render::Compositor>(part.scene, settings);
+    stage_.built.still_irradiance_over_pi = on_tag_ * part.share;
+    LayersOutput output;
+    const std::unique_ptr<FrameTrack> track = make_recorded_track(rows_, camera_, recording_.scene);
+    run_overlay(*MediaSource::open(recording_.footage), *track, stage_, recording_.scene, camera_, output, range_, log_, report_);
+    if (!output.layers) throw Error(recording_.name + ": no tag in frame " + std::to_string(kFrame));
+    return exposed(*output.layers, part.share);
+  }
+
+  cv::Mat truth() const {
+    const std::string file = recording_.truth_folder.value_or("") + "/0016.png";
+    cv::Mat picture = cv::imread(file, cv::IMREAD_COLOR);
+    if (picture.empty()) throw Error(file + ": cannot be read");
+    return picture;
+  }
+
+ private:
+  Recording recording_;
+  Log log_;
+  Report report_;
+  Stage stage_;
+  CameraModel camera_;
+  std::vector<TrackRow> rows_;
+  FrameRange range_{kFrame, kFrame + 1};
+  glm::dvec3 on_tag_{0};
+};
+
+Part lights_alone(const Studio& studio, const render::SplitProbe& split) {
+  const glm::dmat3& turn = studio.built().light_from_probe;
+  const render::Probe lights = difference(studio.built().probe, split.rest);
+  Part part{studio.built().scene, studio.share_of(lights)};
+  part.scene.light = render::project_to_sh(part.scene.lights, part.scene.transfer.bands);
+  part.scene.reflections = render::prefilter_reflections(lights, turn);
+  part.scene.rest_reflections = render::prefilter_reflections(difference(split.mirrored, split.rest), turn);
+  return part;
+}
+
+Part rest_alone(const Studio& studio, const render::SplitProbe& split) {
+  Part part{studio.built().scene, studio.share_of(split.rest)};
+  const render::ShRgb lights = render::project_to_sh(part.scene.lights, part.scene.transfer.bands);
+  for (std::size_t i = 0; i < lights.size(); ++i) part.scene.light[i] -= lights[i];
+  part.scene.reflections = render::prefilter_reflections(split.rest, studio.built().light_from_probe);
+  part.scene.lights.clear();
+  part.scene.rest_reflections = {};
+  return part;
+}
+
+void write(const std::string& path, const std::vector<cv::Mat>& side_by_side) {
+  cv::Mat row, picture;
+  cv::hconcat(side_by_side, row);
+  cv::resize(row, picture, {kWidth, row.rows * kWidth / row.cols}, 0, 0, cv::INTER_AREA);
+  if (!cv::imwrite(path, picture, {cv::IMWRITE_JPEG_QUALITY, 92})) throw Error(path + ": cannot be written");
+}
+
+/// Without the frame's outer parts, where nothing changes.
+cv::Mat middle_of(const cv::Mat& frame) {
+  return frame({frame.cols / 4, frame.rows / 4, frame.cols / 2, frame.rows / 2});
+}
+
+cv::Mat row_of(const render::Image& whole, const render::Image& lights, const render::Image& rest, double gain) {
+  cv::Mat row;
+  cv::hconcat(std::vector<cv::Mat>{coded(whole, gain), coded(lights, gain), coded(rest, gain)}, row);
+  return row;
+}
+
+/// What a sensor would tell: light adds up, however it is divided.
+void report_sum(const render::Image& lights, const render::Image& rest, const render::Image& both) {
+  double most = 0, sum = 0;
+  for (std::size_t i = 0; i < both.data.size(); ++i) {
+    const double apart = std::abs(std::min(lights.data[i] + rest.data[i], 1.0f) - std::min(both.data[i], 1.0f));
+    most = std::max(most, apart);
+    sum += apart;
+  }
+  std::printf("lights and rest against both, of sensor white: at most %.4f, mean %.6f\n", most,
+              sum / static_cast<double>(both.data.size()));
+}
+
+void run(const std::string& location, const std::string& folder) {
+  Studio studio(location);
+  const SceneSettings::Quality& quality = studio.settings().quality;
+  const render::Probe& whole = studio.built().probe;
+  const render::SplitProbe split =
+      render::split_lights(whole, {studio.built().scene.transfer.bands, quality.tolerance, quality.light_samples});
+  const render::Probe lights = difference(whole, split.rest);
+  cv::Mat probes;
+  cv::vconcat(row_of(whole.image, lights.image, split.rest.image, kBrightProbe),
+              row_of(whole.image, lights.image, split.rest.image, kDarkProbe), probes);
+  write(folder + "/light_probe.jpg", {probes});
+
+  const render::Image in_lights = studio.frame(lights_alone(studio, split)), in_rest = studio.frame(rest_alone(studio, split));
+  const render::Image in_both = studio.frame({studio.built().scene, glm::dvec3(1)});
+  report_sum(in_lights, in_rest, in_both);
+  const cv::Mat both = coded(in_both, 1), truth = studio.truth();
+  write(folder + "/light_parts.jpg", {middle_of(coded(in_lights, 1)), middle_of(coded(in_rest, 1)), middle_of(both)});
+  cv::Mat difference;
+  cv::absdiff(both, truth, difference);
+  write(folder + "/light_truth.jpg", {middle_of(both), middle_of(truth), middle_of(difference * 8)});
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::fprintf(stderr, "usage: light_pictures RECORDING FOLDER\n");
+    return 2;
+  }
+  try {
+    run(argv[1], argv[2]);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+}
