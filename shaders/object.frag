@@ -45,13 +45,14 @@ void main() {
 
   vec3 diffuse = surface.exit_radiance, albedo = diffuse_albedo(m, surface.color), f0 = mirror_f0(m, surface.color);
   float f90 = mirror_f90(m), alpha = roughness * roughness;
+  vec3 more = multiple_scattering(f0, dot(n, to_viewer), roughness);
   for (int i = 0; i < light_samples.count.x; ++i) {
     vec3 arriving = irradiance_from(i, surface.position_tag_m, n);
     if (arriving == vec3(0.0)) continue;
     vec4 to_light = light_samples.to_light[i];
     diffuse += arriving * albedo / kPi;
     if (highlights && light_samples.irradiance[i].w > 0.0)
-      reflected += arriving * glossy_brdf(n, to_viewer, to_light.xyz, to_light.w, alpha, f0, f90);
+      reflected += arriving * more * glossy_brdf(n, to_viewer, to_light.xyz, to_light.w, alpha, f0, f90);
   }
 
   // What the dielectric boundary mirrors does not reach the pigment below it.

@@ -23,10 +23,19 @@ vec3 mirror_f0(SurfaceMaterial m, vec3 color) {
 
 float mirror_f90(SurfaceMaterial m) { return mix(m.dielectric.y, 1.0, m.base_color_metallic.a); }
 
+// What a rough surface reflects after more than one meeting with its microfacets, as a factor on what it does after one: a metal that
+// absorbs nothing sends everything back (Turquin, "Practical multiple scattering compensation for microfacet models", 2019).
+vec3 multiple_scattering(vec3 f0, float n_v, float roughness) {
+  vec2 table = texture(brdf_table, vec2(clamp(n_v, 0.0, 1.0), roughness)).rg;
+  return 1.0 + f0 * (1.0 / (table.x + table.y) - 1.0);
+}
+
 // Split-sum factor of what is mirrored, and the share of light that enters a dielectric.
 vec4 mirror_factor(SurfaceMaterial m, vec3 color, float n_v) {
   vec2 table = texture(brdf_table, vec2(clamp(n_v, 0.0, 1.0), m.emissive_roughness.a)).rg;
-  return vec4(mirror_f0(m, color) * table.x + mirror_f90(m) * table.y, 1.0 - (m.dielectric.x * table.x + m.dielectric.y * table.y));
+  vec3 f0 = mirror_f0(m, color);
+  vec3 once = f0 * table.x + mirror_f90(m) * table.y;
+  return vec4(once * multiple_scattering(f0, n_v, m.emissive_roughness.a), 1.0 - (m.dielectric.x * table.x + m.dielectric.y * table.y));
 }
 
 vec3 exit_radiance_of(uint vertex, vec3 albedo) {

@@ -143,6 +143,34 @@ double ggx(double n_v, double n_l, double n_h, double alpha) {
   return alpha * alpha / (kPi * t * t) / (1 + lambda(n_v) + lambda(n_l)) / (4 * n_v * n_l);
 }
 
+/// Share of the light that leaves a metal that absorbs nothing at once, by brute force over the hemisphere.
+double albedo_of(double n_v, double alpha) {
+  const glm::dvec3 v(std::sqrt(1 - n_v * n_v), 0, n_v);
+  double sum = 0;
+  constexpr int kSteps = 400;
+  for (int i = 0; i < kSteps; ++i) {
+    for (int k = 0; k < kSteps; ++k) {
+      const double z = (i + 0.5) / kSteps, turn = 2 * kPi * (k + 0.5) / kSteps, r = std::sqrt(1 - z * z);
+      const glm::dvec3 l(r * std::cos(turn), r * std::sin(turn), z);
+      sum += ggx(n_v, z, glm::normalize(v + l).z, alpha) * z * 2 * kPi / (kSteps * kSteps);
+    }
+  }
+  return sum;
+}
+
+TEST_F(LightGl, RoughMetalLosesNothingInAWhiteFurnace) {
+  // Light of radiance 1 from everywhere: what absorbs nothing cannot be seen against it, however rough.
+  for (const float roughness : {0.05f, 0.3f, 0.6f, 1.0f}) {
+    Material metal;
+    metal.base_color = glm::vec3(1);
+    metal.metallic = 1;
+    metal.roughness = roughness;
+    Compositor compositor(constant_scene(sphere(0.05, {0, 0, 0.06}), metal, glm::vec3(1)), without_glare());
+    const Composite composite = compositor.render(linear_view(), kGreyPlate);
+    for (const int x : {66, 74, 80, 86, 94}) EXPECT_NEAR(pixel_at(composite, x, 60).x, 1, 0.02) << roughness << ", " << x;
+  }
+}
+
 TEST_F(LightGl, AGlossySurfaceShowsAHighlight) {
   Material metal;
   metal.base_color = glm::vec3(1);
@@ -156,7 +184,7 @@ TEST_F(LightGl, AGlossySurfaceShowsAHighlight) {
     const glm::ivec2 p = pixel_over(x, 0, 0.05);
     const glm::dvec3 place((p.x - 79.5) / 200 * 0.45, -(p.y - 59.5) / 200 * 0.45, 0.05);
     const glm::dvec3 to_viewer = glm::normalize(glm::dvec3(0, 0, 0.5) - place), h = glm::normalize(to_viewer + towards);
-    const double expected = ggx(to_viewer.z, towards.z, h.z, 0.25) * towards.z;
+    const double once = ggx(to_viewer.z, towards.z, h.z, 0.25) * towards.z, expected = once / albedo_of(to_viewer.z, 0.25);
     EXPECT_NEAR(pixel_at(composite, p.x, p.y).x, expected, 0.01 * expected) << x;
   }
 }
