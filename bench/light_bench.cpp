@@ -76,7 +76,7 @@ void rotate_light(benchmark::State& state) {
     benchmark::DoNotOptimize(rotate_sh(light, rotation));
   }
 }
-BENCHMARK(rotate_light)->Arg(3)->Arg(5)->Arg(10)->Unit(benchmark::kMicrosecond);
+BENCHMARK(rotate_light)->Arg(3)->Arg(5)->Arg(7)->Arg(10)->Unit(benchmark::kMicrosecond);
 
 void split_probe(benchmark::State& state) {
   Probe probe = gradient_probe(static_cast<int>(state.range(0)));

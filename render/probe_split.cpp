@@ -89,7 +89,12 @@ std::vector<double> energy_held(const Brightness& sky, const LightClusters& clus
     const double light = (sky.luminance[cell] - threshold) * sky.solid_angle_sr[cell];
     energy[cluster] += light * light / sky.solid_angle_sr[cell];
     evaluate_sh(sky.grid.middle_of(cell), bands, std::span<double>(basis));
-    for (int i = 0; i < count; ++i) coefficients[static_cast<std::size_t>(cluster) * count + i] += light * basis[i];
+    for (int l = 0; l < bands; ++l) {
+      // A cell is no point: a square's variance along an axis is a twelfth of its area, and blurs band l as a Gaussian's does.
+      const double blur = std::exp(-l * (l + 1) * sky.solid_angle_sr[cell] / 24);
+      for (int i = sh_index(l, -l); i <= sh_index(l, l); ++i)
+        coefficients[static_cast<std::size_t>(cluster) * count + i] += light * blur * basis[i];
+    }
   }
   for (int cluster = 0; cluster < clusters.count; ++cluster) {
     for (int i = 0; i < count; ++i) held[cluster] += std::pow(coefficients[static_cast<std::size_t>(cluster) * count + i], 2);

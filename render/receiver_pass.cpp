@@ -12,8 +12,8 @@ namespace {
 
 constexpr float kFarthestShadow = 16;  ///< of the object's size
 /// Texels of the lights' texture across the object, and at most along a side.
-constexpr float kTexelsAcrossObject = 384;
-constexpr int kLeastTexels = 16, kMostTexels = 1536;
+constexpr float kTexelsAcrossObject = 192;
+constexpr int kLeastTexels = 16, kMostTexels = 1024;
 
 PlaneRect unite(const PlaneRect& a, const PlaneRect& b) {
   return {glm::min(a.min_m, b.min_m), glm::max(a.max_m, b.max_m)};

@@ -182,9 +182,11 @@ TEST(ProbeSplit, ATinyProbeWorks) {
   Probe probe = sky_with({}, 16);
   ASSERT_EQ(probe.image.height, 8);
   probe.image.pixel(5, 2)[1] = 100;
-  const SplitProbe split = split_lights(probe, {});
-  ASSERT_EQ(split.lights.size(), 1u);
-  expect_sums_to(split, probe);
+  for (const int bands : {5, 7, 10}) {
+    const SplitProbe split = split_lights(probe, {.bands = bands});
+    ASSERT_EQ(split.lights.size(), 1u) << "22 degrees wide, with edges that no " << bands << " bands hold";
+    expect_sums_to(split, probe);
+  }
 }
 
 TEST(ProbeSplit, KeepsToItsBudgetAndCanBeTurnedOff) {
