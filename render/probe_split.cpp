@@ -82,7 +82,6 @@ std::vector<double> energy_held(const Brightness& sky, const LightClusters& clus
   std::vector<double> energy(clusters.count), held(clusters.count);
   const int count = sh_count(bands);
   std::vector<double> coefficients(static_cast<std::size_t>(clusters.count) * count), basis(count);
-  std::vector<glm::dvec3> middle(sky.grid.cells());
   for (int cell = 0; cell < sky.grid.cells(); ++cell) {
     const int cluster = clusters.cluster_of[cell];
     if (cluster == kNoCluster) continue;

@@ -25,7 +25,7 @@ ReceiverAlbedo constant_albedo(const glm::vec3& albedo);
 
 /// pi L / E of every point below the probe, L being the radiance that the probe saw of it and E the probe's irradiance on the
 /// plane. Empty where the plane sends up more than it gets (a screen, a light table) or gets nothing: what is below shines by
-/// itself then.
+/// itself then. 1 where the probe saw more than the plane can send back (a lamp below the horizon).
 std::optional<ReceiverAlbedo> albedo_from_probe(const Probe& probe, const glm::dmat3& tag_from_probe,
                                                 const glm::vec3& probe_in_tag_m);
 

@@ -99,7 +99,7 @@ mat3 frame_around(vec3 n) {
 vec3 mirrored_radiance(vec3 position, vec3 n, vec3 to_viewer, float roughness, bool with_lights) {
   vec3 mirror = reflect(-to_viewer, n);
   vec3 dx = dFdx(mirror), dy = dFdy(mirror);
-  int rays = roughness < 0.1 ? 4 : max(view.options.x, 1);
+  int rays = roughness < kLeastHighlightRoughness ? 4 : max(view.options.x, 1);
   // Without rays of its own the whole lobe is read from the prefiltered probe, in the mirror direction.
   bool traced = view.options.x > 0;
   float share = traced ? pow(float(rays), -0.25) * roughness : roughness, alpha = traced ? roughness * roughness : 0.0;

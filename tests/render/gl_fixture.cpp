@@ -185,4 +185,14 @@ glm::vec4 pixel_at(const Composite& composite, int x, int y) {
   return {p[0], p[1], p[2], p[3]};
 }
 
+FrameView linear_view_from_above() {
+  FrameView view = view_from_above();
+  view.color.transfer = TransferFunction::linear;
+  return view;
+}
+
+PlateReader linear_grey_plate() {
+  return plate_f32([](int, int) { return glm::vec3(0.5f); });
+}
+
 }  // namespace catchlight::render::test

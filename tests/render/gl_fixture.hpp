@@ -45,6 +45,10 @@ CompositorSettings without_glare();
 /// 160 x 120 pixels, looking straight down at the tag from `height_m`; picture right = tag x, picture up = tag y.
 FrameView view_from_above(double height_m = 0.5);
 
+/// The same of footage whose codes are linear light, and half of the sensor's white in all of it.
+FrameView linear_view_from_above();
+PlateReader linear_grey_plate();
+
 /// A plate whose pixel at (x, y) of the frame is code(x, y) of 255.
 PlateReader plate_u8(const std::function<glm::ivec3(int, int)>& code);
 PlateReader plate_u8(int code);

@@ -38,14 +38,6 @@ RenderScene lit_scene(const Mesh& mesh, const Material& material, float sky, con
   return scene;
 }
 
-FrameView linear_view() {
-  FrameView view = view_from_above();
-  view.color.transfer = TransferFunction::linear;
-  return view;
-}
-
-const PlateReader kGreyPlate = plate_f32([](int, int) { return glm::vec3(0.5f); });
-
 /// Pixel over tag (x, y) at height z: the camera looks straight down from 0.5 m with a focal length of 200 px.
 glm::ivec2 pixel_over(double x, double y, double z = 0) {
   return {static_cast<int>(std::lround(79.5 + 200 * x / (0.5 - z))), static_cast<int>(std::lround(59.5 - 200 * y / (0.5 - z)))};
@@ -64,7 +56,7 @@ TEST_F(LightGl, AShadowFallsWhereTheLightThrowsIt) {
     const RenderScene scene =
         lit_scene(square(glm::dvec2(-kHalf_m), glm::dvec2(kHalf_m), kHeight_m), matte(0), 0.5f, {light_from(towards, 2)});
     Compositor compositor(scene, without_glare());
-    const Composite composite = compositor.render(linear_view(), kGreyPlate);
+    const Composite composite = compositor.render(linear_view_from_above(), linear_grey_plate());
     const glm::dvec2 middle = -kHeight_m / towards.z * glm::dvec2(towards);
     const double of_light = 2 * glm::normalize(towards).z / kPi, in_shadow = 0.5 / (0.5 + of_light);
     EXPECT_NEAR(ratio_at(composite, middle), in_shadow, 0.01);
@@ -85,7 +77,7 @@ TEST_F(LightGl, AWideLightHasThePenumbraOfItsWidth) {
   for (int i = 0; i < 64; ++i) strip.push_back(light_from({0.8 + 0.6 * ((i + 0.5) / 64 - 0.5), 0, 1}, 1.0 / 64));
   const RenderScene scene = lit_scene(square({0, -0.1}, {0.1, 0.1}, kHeight_m), matte(0), 0.0f, strip);
   Compositor compositor(scene, without_glare());
-  const Composite composite = compositor.render(linear_view(), kGreyPlate);
+  const Composite composite = compositor.render(linear_view_from_above(), linear_grey_plate());
   for (const double share : {-0.8, -0.5, 0.0, 0.5, 0.8}) {
     const double x = -0.8 * kHeight_m + share * 0.3 * kHeight_m;
     EXPECT_NEAR(ratio_at(composite, {x, 0}), 0.5 - 0.5 * share, 0.06) << share;
@@ -97,7 +89,7 @@ TEST_F(LightGl, OnePartOfAnObjectShadowsAnother) {
   append(mesh, square({-0.01, -0.01}, {0.01, 0.01}, 0.05));
   const RenderScene scene = lit_scene(mesh, matte(0.6f), 0.0f, {light_from({1, 0, 1}, 2)});
   Compositor compositor(scene, without_glare());
-  const Composite composite = compositor.render(linear_view(), kGreyPlate);
+  const Composite composite = compositor.render(linear_view_from_above(), linear_grey_plate());
   const double lit = 0.6 / kPi * 2 * std::sqrt(0.5);
   const auto floor_at = [&](double x) {
     const glm::ivec2 p = pixel_over(x, 0, 0.01);
@@ -113,7 +105,7 @@ TEST_F(LightGl, ASphereHasNoAcneAndNoLeak) {
   constexpr double kRadius_m = 0.05;
   const RenderScene scene = lit_scene(sphere(kRadius_m, middle, 96), matte(1), 0.0f, {light_from(towards, 1)});
   Compositor compositor(scene, without_glare());
-  const Composite composite = compositor.render(linear_view(), kGreyPlate);
+  const Composite composite = compositor.render(linear_view_from_above(), linear_grey_plate());
   const glm::dvec3 camera(0, 0, 0.5);
   int compared = 0;
   for (int y = 40; y < 80; ++y) {
@@ -166,7 +158,7 @@ TEST_F(LightGl, RoughMetalLosesNothingInAWhiteFurnace) {
     metal.metallic = 1;
     metal.roughness = roughness;
     Compositor compositor(constant_scene(sphere(0.05, {0, 0, 0.06}), metal, glm::vec3(1)), without_glare());
-    const Composite composite = compositor.render(linear_view(), kGreyPlate);
+    const Composite composite = compositor.render(linear_view_from_above(), linear_grey_plate());
     for (const int x : {66, 74, 80, 86, 94}) EXPECT_NEAR(pixel_at(composite, x, 60).x, 1, 0.02) << roughness << ", " << x;
   }
 }
@@ -179,7 +171,7 @@ TEST_F(LightGl, AGlossySurfaceShowsAHighlight) {
   const glm::dvec3 towards = glm::normalize(glm::dvec3(0.5, 0, 1)), n(0, 0, 1);
   const RenderScene scene = lit_scene(square({-0.1, -0.1}, {0.1, 0.1}, 0.05), metal, 0.0f, {light_from(towards, 1)});
   Compositor compositor(scene, without_glare());
-  const Composite composite = compositor.render(linear_view(), kGreyPlate);
+  const Composite composite = compositor.render(linear_view_from_above(), linear_grey_plate());
   for (const double x : {-0.08, -0.03, 0.0, 0.04, 0.08}) {
     const glm::ivec2 p = pixel_over(x, 0, 0.05);
     const glm::dvec3 place((p.x - 79.5) / 200 * 0.45, -(p.y - 59.5) / 200 * 0.45, 0.05);
@@ -202,7 +194,7 @@ TEST_F(LightGl, AWideLightWidensTheHighlightAndKeepsItsEnergy) {
   const LightSample one = light_from({0, 0, 1}, 1, kHalf / std::sqrt(3.0));
   const auto row_of = [&](const std::vector<LightSample>& lights) {
     Compositor compositor(lit_scene(square({-0.19, -0.14}, {0.19, 0.14}, 0.001), metal, 0.0f, lights), without_glare());
-    const Composite composite = compositor.render(linear_view(), kGreyPlate);
+    const Composite composite = compositor.render(linear_view_from_above(), linear_grey_plate());
     std::vector<double> row;
     for (int x = 10; x < 150; x += 4) row.push_back(pixel_at(composite, x, 60).x);
     return row;
@@ -220,12 +212,13 @@ TEST_F(LightGl, TurningTheLightTurnsShadowsAndHighlights) {
   plastic.roughness = 0.4f;
   const Mesh ball = sphere(0.03, {0, 0, 0.03});
   const LightSample light = light_from({0.8, 0.1, 1}, 2), turned_light = light_from(quarter * light.direction, 2);
-  FrameView turned_view = linear_view();
+  FrameView turned_view = linear_view_from_above();
   turned_view.tag_from_light = quarter;
   Compositor a(lit_scene(ball, plastic, 0.3f, {light}), without_glare()),
       b(lit_scene(ball, plastic, 0.3f, {turned_light}), without_glare());
-  a.render(linear_view(), kGreyPlate);  // lit from elsewhere first
-  const Composite by_view = a.render(turned_view, kGreyPlate), by_scene = b.render(linear_view(), kGreyPlate);
+  a.render(linear_view_from_above(), linear_grey_plate());  // lit from elsewhere first
+  const Composite by_view = a.render(turned_view, linear_grey_plate()),
+                  by_scene = b.render(linear_view_from_above(), linear_grey_plate());
   ASSERT_EQ(by_view.rect, by_scene.rect);
   for (std::size_t i = 0; i < by_view.rgba.size(); ++i) ASSERT_NEAR(by_view.rgba[i], by_scene.rgba[i], 2e-3) << i;
 }
@@ -233,7 +226,7 @@ TEST_F(LightGl, TurningTheLightTurnsShadowsAndHighlights) {
 TEST_F(LightGl, LightFromBelowThrowsNoShadowOnTheTable) {
   const RenderScene scene = lit_scene(square({-0.02, -0.02}, {0.02, 0.02}, 0.05), matte(0), 0.5f, {light_from({0.5, 0, -1}, 5)});
   Compositor compositor(scene, without_glare());
-  const Composite composite = compositor.render(linear_view(), kGreyPlate);
+  const Composite composite = compositor.render(linear_view_from_above(), linear_grey_plate());
   for (const double x : {-0.1, -0.025, 0.06}) EXPECT_NEAR(ratio_at(composite, {x, 0.05}), 1, 1e-5);
 }
 
@@ -241,7 +234,7 @@ TEST_F(LightGl, ASunOnTheHorizonIsFinite) {
   for (const double height : {0.2, 0.02, 1e-3, 0.0, -1e-3}) {
     const RenderScene scene = lit_scene(sphere(0.03, {0, 0, 0.03}), matte(0.8f), 0.5f, {light_from({-1, 0.1, height}, 20)});
     Compositor compositor(scene, without_glare());
-    const Composite composite = compositor.render(linear_view(), kGreyPlate);
+    const Composite composite = compositor.render(linear_view_from_above(), linear_grey_plate());
     EXPECT_TRUE(std::ranges::all_of(composite.rgba, [](float value) { return std::isfinite(value) && value >= 0; })) << height;
   }
 }
@@ -249,10 +242,10 @@ TEST_F(LightGl, ASunOnTheHorizonIsFinite) {
 TEST_F(LightGl, TheLightIsWorkedOutOnlyWhenItTurns) {
   Compositor compositor(lit_scene(sphere(0.03, {0, 0, 0.03}), matte(0.8f), 0.5f, {light_from({-1, 0.1, 1}, 2)}), without_glare());
   const auto works_on_light = [&](const FrameView& view) {
-    compositor.render(view, kGreyPlate);
+    compositor.render(view, linear_grey_plate());
     return std::ranges::any_of(compositor.pass_times(), [](const PassTime& pass) { return std::string(pass.name) == "light"; });
   };
-  FrameView view = linear_view();
+  FrameView view = linear_view_from_above();
   EXPECT_TRUE(works_on_light(view));
   EXPECT_FALSE(works_on_light(view));
   view.camera_from_tag.translation_m.x += 0.01;

@@ -16,14 +16,6 @@ RenderScene receiver_scene(const std::function<double(double, double)>& ratio) {
   return scene;
 }
 
-FrameView linear_view() {
-  FrameView view = view_from_above();
-  view.color.transfer = TransferFunction::linear;
-  return view;
-}
-
-const PlateReader kGreyPlate = plate_f32([](int, int) { return glm::vec3(0.5f); });
-
 /// Tag x, y (metres) under the centre of pixel (x, y): the camera looks straight down from 0.5 m with a focal length of 200 px.
 glm::dvec2 under_pixel(int x, int y) {
   return {(x - 79.5) * 0.5 / 200, -(y - 59.5) * 0.5 / 200};
@@ -33,7 +25,7 @@ TEST_F(ReceiverGl, PlateIsMultipliedByTheRatioWhereItLies) {
   // A linear ramp passes through the B-spline unchanged; x and y differ, so that no mirroring goes unnoticed.
   const auto ramp = [](double x, double y) { return 0.6 + 3 * x + 1.5 * y; };
   Compositor compositor(receiver_scene(ramp), {});
-  const Composite composite = compositor.render(linear_view(), kGreyPlate);
+  const Composite composite = compositor.render(linear_view_from_above(), linear_grey_plate());
   for (int y = 30; y < 90; y += 7) {
     for (int x = 50; x < 110; x += 7) {
       const glm::dvec2 p = under_pixel(x, y);
@@ -45,7 +37,7 @@ TEST_F(ReceiverGl, PlateIsMultipliedByTheRatioWhereItLies) {
 TEST_F(ReceiverGl, TheGridsEndIsNotSeen) {
   // Even where the transfer claims half the light at the very rim, the picture goes over to the plate in small steps.
   Compositor compositor(receiver_scene([](double, double) { return 0.5; }), {});
-  const Composite composite = compositor.render(linear_view(), kGreyPlate);
+  const Composite composite = compositor.render(linear_view_from_above(), linear_grey_plate());
   float last = 0.5f, largest_step = 0;
   for (int x = composite.rect.x; x <= 80; ++x) {
     const float value = pixel_at(composite, x, 60).x;
@@ -59,7 +51,7 @@ TEST_F(ReceiverGl, TheGridsEndIsNotSeen) {
 TEST_F(ReceiverGl, RatiosThatMakeNoSenseAreBounded) {
   for (const auto& [given, shown] : {std::pair{-0.5, 0.0}, {100.0, 2.0}}) {
     Compositor compositor(receiver_scene([value = given](double, double) { return value; }), without_glare());
-    EXPECT_NEAR(pixel_at(compositor.render(linear_view(), kGreyPlate), 80, 60).x, shown, 1e-5) << given;
+    EXPECT_NEAR(pixel_at(compositor.render(linear_view_from_above(), linear_grey_plate()), 80, 60).x, shown, 1e-5) << given;
   }
 }
 
@@ -67,7 +59,7 @@ TEST_F(ReceiverGl, WithoutLightThereIsNoShadow) {
   RenderScene scene = receiver_scene([](double, double) { return 0.3; });
   scene.light = constant_light({1, 0, 1}, 3);
   Compositor compositor(scene, {});
-  const glm::vec4 pixel = pixel_at(compositor.render(linear_view(), kGreyPlate), 80, 60);
+  const glm::vec4 pixel = pixel_at(compositor.render(linear_view_from_above(), linear_grey_plate()), 80, 60);
   EXPECT_NEAR(pixel.x, 0.15, 1e-5);
   EXPECT_NEAR(pixel.y, 0.5, 1e-5) << "no green light: green cannot be shadowed";
 }
@@ -79,7 +71,7 @@ TEST_F(ReceiverGl, TheObjectHidesTheShadow) {
   scene.transfer = unshadowed_transfer(scene.mesh, 3);
   add_receiver(scene.transfer, {.min_m = {-0.1f, -0.1f}, .max_m = {0.1f, 0.1f}, .columns = 21, .rows = 21},
                [](double, double) { return 0.0; });
-  EXPECT_NEAR(pixel_at(Compositor(scene, {}).render(linear_view(), kGreyPlate), 80, 60).x, 0.7, 1e-3);
+  EXPECT_NEAR(pixel_at(Compositor(scene, {}).render(linear_view_from_above(), linear_grey_plate()), 80, 60).x, 0.7, 1e-3);
 }
 
 /// A glossy ball over a shadow, in a light that makes it glare.
@@ -96,7 +88,7 @@ RenderScene full_scene() {
 
 TEST_F(ReceiverGl, LayersRecombineToThePicture) {
   Compositor compositor(full_scene(), {});
-  FrameView view = linear_view();
+  FrameView view = linear_view_from_above();
   view.black = glm::vec3(0.02f);
   const PlateReader plate =
       plate_f32([](int x, int y) { return glm::vec3(0.01f * static_cast<float>(x), 0.005f * static_cast<float>(y), 0.3f); });
@@ -119,7 +111,7 @@ TEST_F(ReceiverGl, LayersRecombineToThePicture) {
 
 TEST_F(ReceiverGl, LayersHoldGeometry) {
   Compositor compositor(full_scene(), {});
-  const Layers layers = *compositor.render(linear_view(), kGreyPlate, true).layers;
+  const Layers layers = *compositor.render(linear_view_from_above(), linear_grey_plate(), true).layers;
   // Straight above the ball: its top is 0.5 - 0.09 m away and faces the camera (-z in the camera frame).
   EXPECT_NEAR(*layers.depth.pixel(80, 60), 0.41, 1e-3);
   EXPECT_NEAR(layers.normal.pixel(80, 60)[2], -1.0, 1e-3);
@@ -133,9 +125,9 @@ TEST_F(ReceiverGl, LayersHoldGeometry) {
 
 TEST_F(ReceiverGl, LayersWithNothingInSightAreThePlate) {
   Compositor compositor(full_scene(), {});
-  FrameView view = linear_view();
+  FrameView view = linear_view_from_above();
   view.camera_from_tag.translation_m.z = -1;
-  const Composite composite = compositor.render(view, kGreyPlate, true);
+  const Composite composite = compositor.render(view, linear_grey_plate(), true);
   ASSERT_TRUE(composite.layers);
   EXPECT_NEAR(composite.layers->plate.pixel(3, 4)[1], 0.5f, 1e-6);
   EXPECT_EQ(composite.layers->object.pixel(80, 60)[3], 0.0f);
@@ -144,8 +136,8 @@ TEST_F(ReceiverGl, LayersWithNothingInSightAreThePlate) {
 
 TEST_F(ReceiverGl, LayersChangeNoPixelOfThePicture) {
   Compositor compositor(full_scene(), {});
-  const Composite with = compositor.render(linear_view(), kGreyPlate, true),
-                  without = compositor.render(linear_view(), kGreyPlate);
+  const Composite with = compositor.render(linear_view_from_above(), linear_grey_plate(), true),
+                  without = compositor.render(linear_view_from_above(), linear_grey_plate());
   for (int y = without.rect.y; y < without.rect.y + without.rect.height; ++y) {
     for (int x = without.rect.x; x < without.rect.x + without.rect.width; ++x)
       ASSERT_EQ(pixel_at(with, x, y), pixel_at(without, x, y));

@@ -199,5 +199,21 @@ TEST(BuriedVertices, DoNotDarkenWhatSticksOut) {
   }
 }
 
+// ---- the grid ----
+
+TEST(ReceiverGridFor, CoversTheFootprintAndTwiceTheHeightWithSquareCells) {
+  const ReceiverGrid grid = receiver_grid_for(box({-1, 0, 0}, {2, 1, 0.5f}), 41);
+  EXPECT_FLOAT_EQ(grid.min_m.x, -2);
+  EXPECT_FLOAT_EQ(grid.min_m.y, -1);
+  EXPECT_NEAR(grid.max_m.x, 3, 1e-5);
+  EXPECT_GE(grid.max_m.y, 2 - 1e-5);
+  EXPECT_EQ(grid.columns, 41);
+  EXPECT_NEAR((grid.max_m.x - grid.min_m.x) / (grid.columns - 1), (grid.max_m.y - grid.min_m.y) / (grid.rows - 1), 1e-6);
+}
+
+TEST(ReceiverGridFor, AnObjectBelowTheTableIsEmpty) {
+  EXPECT_EQ(receiver_grid_for(box({0, 0, -2}, {1, 1, -1}), 41).columns, 0);
+}
+
 }  // namespace
 }  // namespace catchlight::render

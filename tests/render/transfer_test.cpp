@@ -6,7 +6,6 @@
 #include <numbers>
 #include <random>
 
-#include "render/hemisphere_rays.hpp"
 #include "render/sh.hpp"
 #include "tests/render/shapes.hpp"
 
@@ -388,50 +387,6 @@ TEST(TransferOf, TinyAndHugeScenesAreAlike) {
     const Transfer other = bake_transfer(transformed(mesh, scaled), kNoReceiver, with(2, 1024), {});
     for (std::size_t i = 0; i < plain.object.size(); ++i)
       EXPECT_NEAR(other.object[i].x, plain.object[i].x, 0.02) << scale;  // other rays
-  }
-}
-
-TEST(ReceiverGridFor, CoversTheFootprintAndTwiceTheHeightWithSquareCells) {
-  const ReceiverGrid grid = receiver_grid_for(box({-1, 0, 0}, {2, 1, 0.5f}), 41);
-  EXPECT_FLOAT_EQ(grid.min_m.x, -2);
-  EXPECT_FLOAT_EQ(grid.min_m.y, -1);
-  EXPECT_NEAR(grid.max_m.x, 3, 1e-5);
-  EXPECT_GE(grid.max_m.y, 2 - 1e-5);
-  EXPECT_EQ(grid.columns, 41);
-  EXPECT_NEAR((grid.max_m.x - grid.min_m.x) / (grid.columns - 1), (grid.max_m.y - grid.min_m.y) / (grid.rows - 1), 1e-6);
-}
-
-TEST(ReceiverGridFor, AnObjectBelowTheTableIsEmpty) {
-  EXPECT_EQ(receiver_grid_for(box({0, 0, -2}, {1, 1, -1}), 41).columns, 0);
-}
-
-TEST(HemisphereRays, AreNestedAndWellSpread) {
-  // Each of the first 2^k points of Sobol's sequence falls into another cell of every dyadic grid of 2^k cells, scrambled or not.
-  for (const std::uint32_t seed : {1u, 99u}) {
-    for (const int columns : {1, 2, 4, 8, 16, 32, 64, 128, 256}) {
-      std::vector<int> hits(256);
-      for (std::uint32_t k = 0; k < 256; ++k) {
-        const glm::dvec2 at = scrambled_sobol(k, seed);
-        ++hits[static_cast<int>(at.x * columns) * (256 / columns) + static_cast<int>(at.y * (256 / columns))];
-      }
-      EXPECT_EQ(std::count(hits.begin(), hits.end(), 1), 256) << columns << " columns";
-    }
-  }
-}
-
-TEST(HemisphereRays, FollowTheCosine) {
-  for (const glm::vec3& normal : {glm::vec3(0, 0, 1), glm::vec3(0, 0, -1), glm::normalize(glm::vec3(1, -2, 0.5f))}) {
-    const Hemisphere hemisphere(normal);
-    double mean_cos = 0;
-    glm::dvec3 mean(0);
-    for (std::uint32_t k = 0; k < 4096; ++k) {
-      const glm::vec3 direction = hemisphere.direction(scrambled_sobol(k, 3));
-      EXPECT_NEAR(glm::length(direction), 1, 1e-6);
-      mean_cos += glm::dot(direction, normal) / 4096;
-      mean += glm::dvec3(direction) / 4096.0;
-    }
-    EXPECT_NEAR(mean_cos, 2.0 / 3, 1e-3);
-    EXPECT_LT(glm::distance(mean, glm::dvec3(normal) * (2.0 / 3)), 2e-3);
   }
 }
 
