@@ -85,10 +85,14 @@ void add_figures(const std::string& region, const PictureError& error, std::vect
   figures.push_back({region + ".ssim", error.ssim, 0.002});
 }
 
-void add_figures(const TruthComparison& pictures, std::vector<Figure>& figures) {
+void add_figures(const TruthComparison& pictures, bool glares, std::vector<Figure>& figures) {
   add_figures("mask", pictures.mask, figures);
   add_figures("shadow", pictures.shadow, figures);
   figures.push_back({"shadow.untouched_mean", pictures.shadow_untouched_mean, 0.1});
+  if (glares) {
+    add_figures("glare", pictures.glare, figures);
+    figures.push_back({"glare.untouched_mean", pictures.glare_untouched_mean, 0.1});
+  }
   add_figures("elsewhere", pictures.elsewhere, figures);
   figures.push_back({"elsewhere.changed_mean", pictures.elsewhere_changed_mean, 0.02});
 }
@@ -111,7 +115,7 @@ ReplayResult replay_recording(const std::string& location, const RecordingOverri
                               Log& log) {
   const Recording recording = open_recording(location, overrides);
   SceneSettings scene = recording.scene;
-  scene.glare.enabled = false;
+  if (!scene.is_by_hand("glare.enabled")) scene.glare.enabled = false;
   scene.lens.noise = Switch::off;
   const std::unique_ptr<MediaSource> source = MediaSource::open(recording.footage);
   const CameraModel camera = camera_for_footage(recording, source->info().width_px, source->info().height_px);
@@ -132,7 +136,7 @@ ReplayResult replay_recording(const std::string& location, const RecordingOverri
   }
   if (!output.comparisons.empty()) {
     result.pictures = mean_of(output.comparisons);
-    add_figures(*result.pictures, result.figures);
+    add_figures(*result.pictures, scene.glare.enabled, result.figures);
     write_sheet(sheet_path, output.sheet_rows);
   }
   if (result.figures.empty()) throw Error(location + ": nothing to compare with; expected poses.csv or truth/ with mask/");

@@ -23,9 +23,9 @@ struct ReplayResult {
 /// `location` itself, or the recordings in it, by name. Throws Error where there are none.
 std::vector<std::string> find_recordings(const std::string& location);
 
-/// Truth is a scene without glare and grain: both are off here. Writes the sheet plate | ours | truth | difference x 8 to
-/// `sheet_path` where there is truth. Throws Error as overlay does, also for a truth frame that is missing its mask or has
-/// another size.
+/// Truth has no grain, and glares only where the scene file says so itself (`glare.enabled = true`): both are off here otherwise.
+/// Writes the sheet plate | ours | truth | difference x 8 to `sheet_path` where there is truth. Throws Error as overlay does,
+/// also for a truth frame that is missing its mask or has another size.
 ReplayResult replay_recording(const std::string& location, const RecordingOverrides& overrides, const std::string& sheet_path,
                               Log& log);
 

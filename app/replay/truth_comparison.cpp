@@ -21,12 +21,17 @@ cv::Mat boxed(const cv::Mat& image, int size) {
   return smooth;
 }
 
+cv::Mat largest_channel(const cv::Mat& image) {
+  cv::Mat channels[3];
+  cv::split(image, channels);
+  return cv::max(cv::max(channels[0], channels[1]), channels[2]);
+}
+
 /// Per pixel, the largest difference over the channels. 32-bit float.
 cv::Mat largest_difference(const cv::Mat& a, const cv::Mat& b) {
-  cv::Mat difference, channels[3];
+  cv::Mat difference;
   cv::absdiff(a, b, difference);
-  cv::split(difference, channels);
-  return cv::max(cv::max(channels[0], channels[1]), channels[2]);
+  return largest_channel(difference);
 }
 
 double masked_mean(const cv::Mat& values, const cv::Mat& region) {
@@ -87,6 +92,11 @@ TruthComparison compare_with_truth(const cv::Mat& ours, const cv::Mat& truth, co
   cv::Mat change;
   cv::blur(largest_difference(boxed(truth, 1), boxed(plate_clean, 1)), change, {9, 9});
   const cv::Mat shadow = outer & (change > kObjectChanges), elsewhere = outer & ~shadow;
+  cv::Mat brighter;
+  cv::subtract(boxed(truth, 9), boxed(plate_clean, 9), brighter);
+  cv::Mat boxes_reach;  // the object's own light within a box's reach is no glare
+  cv::dilate(mask, boxes_reach, cv::Mat::ones(13, 13, CV_8U));
+  const cv::Mat glare = (boxes_reach < 3) & (largest_channel(brighter) > kObjectChanges);
   const cv::Mat ssim_map = render::structural_similarity_map(ours, truth);
 
   TruthComparison result;
@@ -94,24 +104,30 @@ TruthComparison compare_with_truth(const cv::Mat& ours, const cv::Mat& truth, co
   result.shadow = picture_error(ours, truth, 5, ssim_map, shadow);
   result.elsewhere = picture_error(ours, truth, 5, ssim_map, elsewhere);
   result.shadow_untouched_mean = picture_error(plate, truth, 5, ssim_map, shadow).mean;
+  result.glare = picture_error(ours, truth, 5, ssim_map, glare);
+  result.glare_untouched_mean = picture_error(plate, truth, 5, ssim_map, glare).mean;
   result.elsewhere_changed_mean = masked_mean(largest_difference(boxed(ours, 1), boxed(plate, 1)), elsewhere);
   return result;
 }
 
 TruthComparison mean_of(const std::vector<TruthComparison>& frames) {
   TruthComparison sum;
-  int mask_frames = 0, shadow_frames = 0, elsewhere_frames = 0;
+  int mask_frames = 0, shadow_frames = 0, glare_frames = 0, elsewhere_frames = 0;
   for (const TruthComparison& frame : frames) {
     add(sum.mask, frame.mask, mask_frames);
     add(sum.shadow, frame.shadow, shadow_frames);
+    add(sum.glare, frame.glare, glare_frames);
     add(sum.elsewhere, frame.elsewhere, elsewhere_frames);
     sum.shadow_untouched_mean += frame.shadow_untouched_mean;
+    sum.glare_untouched_mean += frame.glare_untouched_mean;
     sum.elsewhere_changed_mean += frame.elsewhere_changed_mean;
   }
   divide(sum.mask, mask_frames);
   divide(sum.shadow, shadow_frames);
+  divide(sum.glare, glare_frames);
   divide(sum.elsewhere, elsewhere_frames);
   if (shadow_frames > 0) sum.shadow_untouched_mean /= shadow_frames;
+  if (glare_frames > 0) sum.glare_untouched_mean /= glare_frames;
   if (!frames.empty()) sum.elsewhere_changed_mean /= static_cast<double>(frames.size());
   return sum;
 }

@@ -18,8 +18,10 @@ struct PictureError {
 struct TruthComparison {
   PictureError mask;                  ///< inside the object, less its rim
   PictureError shadow;                ///< outside it, where the object changes the real surface by more than 4 of 255
+  PictureError glare;                 ///< outside it too, where its light brightens the picture by more than that
   PictureError elsewhere;             ///< the rest, where the composite must be the plate
   double shadow_untouched_mean = 0;   ///< what `shadow.mean` would be with nothing done
+  double glare_untouched_mean = 0;    ///< and `glare.mean`
   double elsewhere_changed_mean = 0;  ///< mean difference from the plate elsewhere: 0 when untouched pixels are untouched
 };
 

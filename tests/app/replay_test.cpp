@@ -60,6 +60,19 @@ TEST(TruthComparison, EachRegionSeesOnlyItsOwnError) {
   EXPECT_GT(elsewhere_off.elsewhere_changed_mean, 0.5);
 }
 
+TEST(TruthComparison, GlareIsWhereTheTruthIsBrighterThanThePlateAwayFromTheObject) {
+  Pictures p;
+  p.truth(cv::Rect(85, 85, 30, 30)) += cv::Scalar(0, 30, 50);
+  const TruthComparison nothing_done = compare_with_truth(p.plate, p.truth, p.plate, p.plate, p.mask);
+  EXPECT_GE(nothing_done.glare.pixels, 30 * 30);
+  EXPECT_LE(nothing_done.glare.pixels, 38 * 38) << "the box's reach around it, but not the bright object's own rim";
+  EXPECT_NEAR(nothing_done.glare.p95, 50, 1e-3);
+  EXPECT_DOUBLE_EQ(nothing_done.glare.mean, nothing_done.glare_untouched_mean);
+  EXPECT_EQ(compare_with_truth(p.truth, p.truth, p.plate, p.plate, p.mask).glare.mean, 0);
+  const Pictures shadow_only;
+  EXPECT_EQ(compare_with_truth(shadow_only.truth, shadow_only.truth, p.plate, p.plate, p.mask).glare.pixels, 0);
+}
+
 TEST(TruthComparison, DoingNothingIsMeasuredToo) {
   const Pictures p;
   const TruthComparison result = compare_with_truth(p.plate, p.truth, p.plate, p.plate, p.mask);
