@@ -190,7 +190,7 @@ bool Compositor::Impl::draw_virtual_layer(const FrameView& view, const PixelRect
   }
   if (!settings.glare.enabled) return false;
   const auto pass = clock.pass("highlights");
-  return glare.extract(object_target->color(), rect, width, height);
+  return glare.extract(object_target->color(), nullptr, rect, width, height);
 }
 
 void Compositor::Impl::upload_plate(const PlateReader& plate, const PixelRect& rect) {
@@ -224,7 +224,8 @@ Composite Compositor::Impl::render(const FrameView& view, const PlateReader& pla
     glares = draw_virtual_layer(view, virtual_rect);
     if (glares) {
       const auto pass = clock.pass("glare");
-      output_rect = glare.spread(virtual_rect);
+      result.glare_rect = glare.spread();
+      output_rect = unite(virtual_rect, result.glare_rect);
     }
   }
   if (want_layers) output_rect = whole;
@@ -235,7 +236,7 @@ Composite Compositor::Impl::render(const FrameView& view, const PlateReader& pla
     composite.draw(view, output_rect,
                    {virtual_rect, object_target ? &object_target->color() : nullptr,
                     shadow_target ? &shadow_target->texture() : nullptr, glares ? &glare : nullptr},
-                   settings.glare, want_layers);
+                   want_layers);
   }
   result.rect = output_rect;
   result.rgba = composite.read();
