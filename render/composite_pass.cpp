@@ -86,10 +86,10 @@ void CompositePass::update_uniforms(const FrameView& view, const VirtualLayer& l
   block.output_rect = as_vector(rect_);
   block.virtual_rect = as_vector(layer.rect);
   block.plate_rect = as_vector(plate_rect_);
-  block.modes = {mode_of(view.color.transfer), clips_ ? 1 : 0, layer.glare ? 1 : 0, 0};
+  block.modes = {mode_of(view.color.transfer), clips_ ? 1 : 0, layer.pixel_glare ? 2 : layer.glare ? 1 : 0, 0};
   block.black = glm::vec4(view.black, 0);
   block.changed_code.x = changed_code_;
-  if (layer.glare) block.glare_from_frame = layer.glare->texels_from_frame();
+  if (layer.glare && !layer.pixel_glare) block.glare_from_frame = layer.glare->texels_from_frame();
   uniforms_.update(block);
   uniforms_.bind(BINDING_COMPOSITE);
 }
@@ -132,7 +132,8 @@ void CompositePass::draw(const FrameView& view, const PixelRect& rect, const Vir
   glBindTextureUnit(TEXTURE_OBJECT, (layer.object ? *layer.object : black_).id());
   glBindTextureUnit(TEXTURE_SHADOW, (layer.shadow ? *layer.shadow : black_).id());
   glBindTextureUnit(TEXTURE_PLATE, plate_.id());
-  glBindTextureUnit(TEXTURE_GLARE, (layer.glare ? layer.glare->glare() : black_).id());
+  const GlTexture& glare = layer.pixel_glare ? *layer.pixel_glare : layer.glare ? layer.glare->glare() : black_;
+  glBindTextureUnit(TEXTURE_GLARE, glare.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 

@@ -16,7 +16,8 @@ struct VirtualLayer {
   PixelRect rect;
   const GlTexture* object;
   const GlTexture* shadow;
-  const GlarePass* glare;  ///< null: none drawn
+  const GlarePass* glare;                  ///< null: none drawn
+  const GlTexture* pixel_glare = nullptr;  ///< stands for it where not null: glare of every pixel of the frame
 };
 
 class CompositePass {

@@ -57,6 +57,10 @@ struct GlareSettings {
   double streak_rotation_deg = 45;
   int streak_passes = 0;  ///< of four samples each; 0: as many as can be seen
   int grid_rows = 240;    ///< resolution that glare is computed at; texels are never smaller than pixels
+  std::string method = "fast";   ///< or "fft": of an aperture, as render/fft_glare.hpp says
+  std::string aperture;          ///< what aperture_picture() takes
+  double aperture_mm = 2;        ///< width of its picture
+  double aperture_strength = 1;  ///< 1: as much as the aperture diffracts
 };
 
 struct CompositorSettings {

@@ -125,7 +125,7 @@ UNIFORM_BLOCK(CompositeUniforms, BINDING_COMPOSITE) {
   ivec4 output_rect;
   ivec4 virtual_rect;       // what object and shadow textures hold
   ivec4 plate_rect;         // what the plate texture holds
-  ivec4 modes;              // TransferFunction, codes end at 1, glare drawn
+  ivec4 modes;              // TransferFunction, codes end at 1, glare (1: on its grid, 2: by pixels)
   vec4 black;
   vec4 changed_code;        // x: smallest difference of codes that counts
   vec4 glare_from_frame;    // texels of the glare = pixel * xy + zw
