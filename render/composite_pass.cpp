@@ -81,16 +81,15 @@ void CompositePass::upload(const Plate& plate) {
   changed_code_ = format.changed_code;
 }
 
-void CompositePass::update_uniforms(const FrameView& view, const VirtualLayer& layer, const GlareSettings& glare) {
+void CompositePass::update_uniforms(const FrameView& view, const VirtualLayer& layer) {
   shader_interface::CompositeUniforms block{};
   block.output_rect = as_vector(rect_);
   block.virtual_rect = as_vector(layer.rect);
   block.plate_rect = as_vector(plate_rect_);
-  block.modes = {mode_of(view.color.transfer), clips_ ? 1 : 0, layer.glare ? 1 : 0, 0};
+  block.modes = {mode_of(view.color.transfer), clips_ ? 1 : 0, layer.pixel_glare ? 2 : layer.glare ? 1 : 0, 0};
   block.black = glm::vec4(view.black, 0);
   block.changed_code.x = changed_code_;
-  block.glare = {static_cast<float>(glare.bloom_strength), static_cast<float>(glare.streak_strength), 0, 0};
-  if (layer.glare) block.glare_from_frame = layer.glare->texture_from_frame();
+  if (layer.glare && !layer.pixel_glare) block.glare_from_frame = layer.glare->texels_from_frame();
   uniforms_.update(block);
   uniforms_.bind(BINDING_COMPOSITE);
 }
@@ -103,7 +102,7 @@ void CompositePass::draw_plate_light(const FrameView& view) {
     glNamedFramebufferTexture(plate_light_framebuffer_.id(), GL_COLOR_ATTACHMENT0, plate_light_.id(), 0);
     plate_light_width_ = width, plate_light_height_ = height;
   }
-  update_uniforms(view, {}, {});
+  update_uniforms(view, {});
   reset_state();
   glBindFramebuffer(GL_FRAMEBUFFER, plate_light_framebuffer_.id());
   glViewport(0, 0, width, height);
@@ -114,8 +113,7 @@ void CompositePass::draw_plate_light(const FrameView& view) {
   glGenerateTextureMipmap(plate_light_.id());
 }
 
-void CompositePass::draw(const FrameView& view, const PixelRect& rect, const VirtualLayer& layer, const GlareSettings& glare,
-                         bool with_layers) {
+void CompositePass::draw(const FrameView& view, const PixelRect& rect, const VirtualLayer& layer, bool with_layers) {
   rect_ = rect;
   const int width = roomy(rect_.width), height = roomy(rect_.height);
   if (with_layers && !(layers_ && layers_->fits(width, height))) {
@@ -124,7 +122,7 @@ void CompositePass::draw(const FrameView& view, const PixelRect& rect, const Vir
   if (!with_layers && !(output_ && output_->fits(width, height)))
     output_ = std::make_unique<ColorTarget<1>>("composite", GL_RGBA32F, width, height);
   drawn_framebuffer_ = with_layers ? layers_->framebuffer() : output_->framebuffer();
-  update_uniforms(view, layer, glare);
+  update_uniforms(view, layer);
 
   reset_state();
   glBindFramebuffer(GL_FRAMEBUFFER, drawn_framebuffer_);
@@ -134,8 +132,8 @@ void CompositePass::draw(const FrameView& view, const PixelRect& rect, const Vir
   glBindTextureUnit(TEXTURE_OBJECT, (layer.object ? *layer.object : black_).id());
   glBindTextureUnit(TEXTURE_SHADOW, (layer.shadow ? *layer.shadow : black_).id());
   glBindTextureUnit(TEXTURE_PLATE, plate_.id());
-  glBindTextureUnit(TEXTURE_BLOOM, (layer.glare ? layer.glare->bloom() : black_).id());
-  glBindTextureUnit(TEXTURE_STREAKS, (layer.glare ? layer.glare->streaks() : black_).id());
+  const GlTexture& glare = layer.pixel_glare ? *layer.pixel_glare : layer.glare ? layer.glare->glare() : black_;
+  glBindTextureUnit(TEXTURE_GLARE, glare.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 

@@ -16,7 +16,8 @@ struct VirtualLayer {
   PixelRect rect;
   const GlTexture* object;
   const GlTexture* shadow;
-  const GlarePass* glare;  ///< null: none drawn
+  const GlarePass* glare;                  ///< null: none drawn
+  const GlTexture* pixel_glare = nullptr;  ///< stands for it where not null: glare of every pixel of the frame
 };
 
 class CompositePass {
@@ -31,8 +32,7 @@ class CompositePass {
   const GlTexture& plate_light() const { return plate_light_; }
 
   /// Over `rect`, which the uploaded plate holds.
-  void draw(const FrameView& view, const PixelRect& rect, const VirtualLayer& layer, const GlareSettings& glare,
-            bool with_layers);
+  void draw(const FrameView& view, const PixelRect& rect, const VirtualLayer& layer, bool with_layers);
 
   /// Codes and change flags, RGBA.
   std::vector<float> read() const;
@@ -43,7 +43,7 @@ class CompositePass {
  private:
   static constexpr int kOutputs = 5;
 
-  void update_uniforms(const FrameView& view, const VirtualLayer& layer, const GlareSettings& glare);
+  void update_uniforms(const FrameView& view, const VirtualLayer& layer);
 
   GlProgram program_, plate_light_program_;
   GlVertexArray no_attributes_;

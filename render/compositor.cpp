@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "render/aperture_glare_pass.hpp"
 #include "render/composite_pass.hpp"
 #include "render/gl_context.hpp"
 #include "render/glare.hpp"
@@ -85,6 +86,7 @@ struct Compositor::Impl {
   ObjectPass object;
   std::unique_ptr<ReceiverPass> receiver;
   GlarePass glare;
+  std::unique_ptr<ApertureGlarePass> aperture_glare;  ///< in its place where settings.glare.method is "fft"
   CompositePass composite;
   UniformBuffer<shader_interface::ViewUniforms> view_uniforms{"view"};
   std::optional<glm::dmat3> lit_from;  ///< the light's turn that the points are lit for
@@ -105,6 +107,7 @@ Compositor::Impl::Impl(const RenderScene& scene, const CompositorSettings& wante
       glare(wanted.glare, wanted.shader_folder),
       composite(wanted.shader_folder) {
   settings.samples = supported_samples(wanted.samples);
+  if (wanted.glare.enabled && wanted.glare.method == "fft") aperture_glare = std::make_unique<ApertureGlarePass>(wanted.glare);
   if (scene.transfer.grid.columns >= 2 && scene.transfer.grid.rows >= 2)
     receiver = std::make_unique<ReceiverPass>(scene.transfer, wanted.shader_folder);
   check_gl("the compositor's start");
@@ -190,7 +193,8 @@ bool Compositor::Impl::draw_virtual_layer(const FrameView& view, const PixelRect
   }
   if (!settings.glare.enabled) return false;
   const auto pass = clock.pass("highlights");
-  return glare.extract(object_target->color(), rect, width, height);
+  if (aperture_glare) return aperture_glare->extract(object_target->color(), rect, width, height);
+  return glare.extract(object_target->color(), nullptr, rect, width, height);
 }
 
 void Compositor::Impl::upload_plate(const PlateReader& plate, const PixelRect& rect) {
@@ -224,7 +228,8 @@ Composite Compositor::Impl::render(const FrameView& view, const PlateReader& pla
     glares = draw_virtual_layer(view, virtual_rect);
     if (glares) {
       const auto pass = clock.pass("glare");
-      output_rect = glare.spread(virtual_rect);
+      result.glare_rect = aperture_glare ? aperture_glare->spread(view.camera) : glare.spread();
+      output_rect = unite(virtual_rect, result.glare_rect);
     }
   }
   if (want_layers) output_rect = whole;
@@ -234,8 +239,9 @@ Composite Compositor::Impl::render(const FrameView& view, const PlateReader& pla
     const auto pass = clock.pass("composite");
     composite.draw(view, output_rect,
                    {virtual_rect, object_target ? &object_target->color() : nullptr,
-                    shadow_target ? &shadow_target->texture() : nullptr, glares ? &glare : nullptr},
-                   settings.glare, want_layers);
+                    shadow_target ? &shadow_target->texture() : nullptr, glares ? &glare : nullptr,
+                    glares && aperture_glare ? &aperture_glare->glare() : nullptr},
+                   want_layers);
   }
   result.rect = output_rect;
   result.rgba = composite.read();

@@ -48,11 +48,19 @@ struct RenderScene {
 struct GlareSettings {
   bool enabled = true;
   double threshold = 1.0;  ///< exposed linear value above which the lens spills; 1 = sensor white
+  double brightest = 3e4;  ///< what the light of a highlight tends to, however bright it is
   double bloom_strength = 0.08;
   double streak_strength = 0.06;
   int streak_directions = 4;
   double streak_attenuation = 0.92;  ///< a of a^k, per pixel at a frame height of 480 px
+  double streak_dispersion = 0;      ///< 1: a streak is as long as its colour's wavelength says; 0: all alike
   double streak_rotation_deg = 45;
+  int streak_passes = 0;  ///< of four samples each; 0: as many as can be seen
+  int grid_rows = 240;    ///< resolution that glare is computed at; texels are never smaller than pixels
+  std::string method = "fast";   ///< or "fft": of an aperture, as render/fft_glare.hpp says
+  std::string aperture;          ///< what aperture_picture() takes
+  double aperture_mm = 2;        ///< width of its picture
+  double aperture_strength = 1;  ///< 1: as much as the aperture diffracts
 };
 
 struct CompositorSettings {
@@ -91,6 +99,7 @@ struct Composite {
   PixelRect rect;           ///< empty: nothing virtual in sight
   std::vector<float> rgba;  ///< row-major within rect
   bool glare_drawn = false;
+  PixelRect glare_rect;  ///< what glare reaches, where it is drawn
   std::optional<Layers> layers;
 };
 

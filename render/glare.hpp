@@ -1,59 +1,54 @@
-// What exceeds the sensor's white spills in the lens: bloom and streaks, computed on a grid of half the frame's resolution that
-// is fixed to the frame (not to the object), so that it does not crawl.
+// What exceeds the sensor's white spills in the lens: bloom and streaks, computed on a grid of few rows that is fixed to the
+// frame (not to the object), so that it neither crawls nor changes with the frame's resolution.
 #pragma once
 
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "render/compositor.hpp"
-#include "render/render_target.hpp"
+#include "render/glare_bloom.hpp"
+#include "render/glare_plan.hpp"
+#include "render/glare_streaks.hpp"
 
 namespace catchlight::render {
-
-/// How the settings, stated for 480 rows, translate to a frame of another size.
-struct GlarePlan {
-  int bloom_levels;           ///< halvings; the coarsest spreads over 2^levels px
-  int streak_level;           ///< the halving that streaks are drawn at, 0 = half resolution
-  int streak_passes;          ///< 4^passes samples reach until a^k is invisible
-  double streak_attenuation;  ///< per texel of that level
-  int reach_px;               ///< how far beyond a highlight anything changes
-};
-
-GlarePlan plan_glare(const GlareSettings& settings, int frame_height);
 
 class GlarePass {
  public:
   GlarePass(const GlareSettings& settings, const std::string& shader_folder);
 
-  /// Extracts what is over the threshold of `object` (which holds the frame's pixels of `rect`). False, and nothing else to do,
-  /// where nothing is.
-  bool extract(const GlTexture& object, const PixelRect& rect, int frame_width, int frame_height);
+  /// Extracts what is over the threshold of `object` (which holds the frame's pixels of `rect`). `emission`: the object's own
+  /// light among it, in the same pixels; null where it glares as the rest. False, and nothing else to do, where nothing is.
+  bool extract(const GlTexture& object, const GlTexture* emission, const PixelRect& rect, int frame_width, int frame_height);
 
-  /// After extract() was true: bloom and streaks around `rect`. Gives the pixels of the frame they reach.
-  PixelRect spread(const PixelRect& rect);
+  /// After extract() was true: bloom and streaks. Gives the pixels of the frame that they reach.
+  PixelRect spread();
 
-  /// Both of unit energy: the sum over the frame equals the excess's.
-  const GlTexture& bloom() const { return levels_.front().texture(); }
-  const GlTexture& streaks() const { return streaks_->texture(); }
-  /// Texture coordinates of bloom (xy) and streaks (zw) per pixel of the frame.
-  glm::vec4 texture_from_frame() const;
+  /// The excess on the grid with its margins, exposed linear light per texel; and on the CPU, RGB.
+  const GlTexture& excess() const { return excess_->texture(); }
+  Image read_excess() const;
+  const GlareGrid& grid() const { return grid_; }
+
+  /// What is added to the frame, exposed linear light, strengths included, on the same grid; to be read as a cubic B-spline.
+  const GlTexture& glare() const { return glow_->texture(); }
+  /// Coordinates of the glare's texels: pixel of the frame times xy plus zw.
+  glm::vec4 texels_from_frame() const;
 
  private:
   void make_targets(int frame_width, int frame_height);
-  void draw(const ColorTarget<1>& target, const GlTexture& source, int level, const PixelRect& reach) const;
-  void draw_bloom(const PixelRect& reach) const;
-  void draw_streaks(const PixelRect& reach) const;
-  void draw_streak(const glm::dvec2& direction, const PixelRect& reach) const;
+  void filter(const GlTexture& object, const GlTexture* emission, const PixelRect& rect);
+  void add_streaks(const GlTexture& excess, int directions, double reach_texels, const PixelRect& texels) const;
 
   GlareSettings settings_;
-  GlProgram bright_, down_, up_, streak_;
+  GlProgram filter_, bright_;
+  GlareBlur blur_;
+  BloomPass bloom_;
+  StreakPass streaks_;
   GlVertexArray no_attributes_;
   GlQuery any_bright_;
-  GlarePlan plan_{};
+  GlareGrid grid_{};
+  PixelRect bright_texels_;  ///< where the excess may be
   int frame_width_ = 0, frame_height_ = 0;
-  std::vector<ColorTarget<1>> levels_;  ///< level k has 1 / 2^(k+1) of the frame's resolution
-  std::unique_ptr<ColorTarget<1>> streaks_, streak_passes_[2];
+  std::unique_ptr<ColorTarget<1>> filtered_rows_, light_, excess_, scratch_, narrow_, glow_;
 };
 
 }  // namespace catchlight::render

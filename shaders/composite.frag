@@ -1,13 +1,13 @@
 // Object, shadow and glare put into the plate in linear light (Debevec 1998; premultiplied over), then coded as the plate was.
 #version 450 core
 #include "interface.h"
+#include "bspline.glsl"
 #include "color.glsl"
 
 layout(binding = TEXTURE_OBJECT) uniform sampler2D object;    // premultiplied exposed linear
 layout(binding = TEXTURE_SHADOW) uniform sampler2D shadow;    // ratio
 layout(binding = TEXTURE_PLATE) uniform sampler2D plate;      // codes
-layout(binding = TEXTURE_BLOOM) uniform sampler2D bloom;      // exposed linear
-layout(binding = TEXTURE_STREAKS) uniform sampler2D streaks;
+layout(binding = TEXTURE_GLARE) uniform sampler2D glare_grid; // exposed linear
 
 layout(location = 0) out vec4 result;  // codes; alpha 1 where changed
 // Layers, linear: result = plate * shadow * (1 - object.a) + object + glare.
@@ -20,9 +20,9 @@ vec3 finite_or_zero(vec3 v) { return mix(v, vec3(0.0), bvec3(uvec3(isnan(v)) | u
 
 vec3 glare_at(ivec2 pixel) {
   if (composite.modes.z == 0) return vec3(0.0);
-  vec2 centre = vec2(pixel) + 0.5;
-  return composite.glare.x * texture(bloom, centre * composite.glare_from_frame.xy).rgb +
-         composite.glare.y * texture(streaks, centre * composite.glare_from_frame.zw).rgb;
+  if (composite.modes.z == 2) return texelFetch(glare_grid, pixel, 0).rgb;  // of an aperture, at the frame's own resolution
+  // Catmull-Rom's cubic under the streaks may undershoot by a little.
+  return max(bspline(glare_grid, (vec2(pixel) + 0.5) * composite.glare_from_frame.xy + composite.glare_from_frame.zw), 0.0);
 }
 
 void main() {

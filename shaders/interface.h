@@ -18,6 +18,9 @@ using glm::vec4;
 #define MAX_LIGHT_COEFFICIENTS 100
 #define MAX_LIGHT_SAMPLES 128
 #define RECEIVER_CELLS 96
+#define GLARE_MARGIN 4  // texels around the glare grid and its halvings
+#define MAX_GLARE_BLUR_TAPS 16
+#define MAX_STREAK_TAPS 16
 
 // Uniform blocks
 #define BINDING_VIEW 0
@@ -47,10 +50,10 @@ using glm::vec4;
 #define TEXTURE_OBJECT 0
 #define TEXTURE_SHADOW 1
 #define TEXTURE_PLATE 2
-#define TEXTURE_BLOOM 3
-#define TEXTURE_STREAKS 4
+#define TEXTURE_GLARE 3
 #define TEXTURE_SOURCE 0
 #define TEXTURE_COARSER 1
+#define TEXTURE_EMISSION 1
 
 // Vertex attributes
 #define ATTRIBUTE_POSITION 0
@@ -122,11 +125,10 @@ UNIFORM_BLOCK(CompositeUniforms, BINDING_COMPOSITE) {
   ivec4 output_rect;
   ivec4 virtual_rect;       // what object and shadow textures hold
   ivec4 plate_rect;         // what the plate texture holds
-  ivec4 modes;              // TransferFunction, codes end at 1, glare drawn
+  ivec4 modes;              // TransferFunction, codes end at 1, glare (1: on its grid, 2: by pixels)
   vec4 black;
   vec4 changed_code;        // x: smallest difference of codes that counts
-  vec4 glare;               // bloom and streak strength
-  vec4 glare_from_frame;    // texture coordinates of bloom (xy) and streaks (zw) per pixel
+  vec4 glare_from_frame;    // texels of the glare = pixel * xy + zw
 } BLOCK_NAME(composite);
 
 #ifdef __cplusplus

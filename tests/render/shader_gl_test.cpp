@@ -67,7 +67,7 @@ TEST_F(ShaderGl, UniformBlocksLieAsCppLaysThem) {
   expect_layout(composite, "CompositeUniforms", sizeof(CompositeUniforms),
                 {MEMBER(CompositeUniforms, output_rect), MEMBER(CompositeUniforms, virtual_rect),
                  MEMBER(CompositeUniforms, modes), MEMBER(CompositeUniforms, black), MEMBER(CompositeUniforms, changed_code),
-                 MEMBER(CompositeUniforms, glare), MEMBER(CompositeUniforms, glare_from_frame)});
+                 MEMBER(CompositeUniforms, glare_from_frame)});
 }
 
 /// A folder with all embedded shaders, for one test.

@@ -1,0 +1,82 @@
+#include "render/glare_bloom.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/read_back.hpp"
+#include "render/shader.hpp"
+#include "shaders/interface.h"
+
+namespace catchlight::render {
+
+BloomPass::BloomPass(const std::string& shader_folder)
+    : down_(make_program({.vertex = "fullscreen.vert", .fragment = "glare_down.frag", .captured = {}}, shader_folder)),
+      up_(make_program({.vertex = "fullscreen.vert", .fragment = "glare_up.frag", .captured = {}}, shader_folder)) {}
+
+void BloomPass::resize(int columns, int rows, double rows_per_height) {
+  blurs_ = plan_bloom(rows_per_height);
+  levels_.clear();
+  int width = columns - 2 * GLARE_MARGIN, height = rows - 2 * GLARE_MARGIN;
+  for (int level = 1; level <= std::max(blurs_.back().level, 1); ++level) {
+    width = (width + 1) / 2, height = (height + 1) / 2;
+    const auto target = [&](const char* label) {
+      return make_glare_target(label, width + 2 * GLARE_MARGIN, height + 2 * GLARE_MARGIN);
+    };
+    levels_.push_back({target("shrunk excess"), target("bloom rows"), target("bloom")});
+  }
+}
+
+/// Texels of a level that touch these of the grid, and as many around them as the way up reads.
+PixelRect BloomPass::texels_at(const PixelRect& texels, int level) const {
+  constexpr int kAround = 3;
+  const ColorTarget<1>& target = levels_[static_cast<std::size_t>(level) - 1].shrunk;
+  const double step = std::exp2(level);
+  const auto low = [&](int t) { return static_cast<int>(std::floor((t - GLARE_MARGIN) / step)) + GLARE_MARGIN - kAround; };
+  const auto high = [&](int t) { return static_cast<int>(std::ceil((t - GLARE_MARGIN) / step)) + GLARE_MARGIN + kAround; };
+  const int x = low(texels.x), y = low(texels.y);
+  return intersect({x, y, high(texels.x + texels.width) - x, high(texels.y + texels.height) - y},
+                   {0, 0, target.width(), target.height()});
+}
+
+void BloomPass::shrink(const GlTexture& excess, const PixelRect& texels) {
+  glUseProgram(down_.id());
+  const GlTexture* source = &excess;
+  for (std::size_t k = 0; k < levels_.size(); ++k) {
+    clear(levels_[k].shrunk);
+    glBindTextureUnit(TEXTURE_SOURCE, source->id());
+    draw_over(levels_[k].shrunk, texels_at(texels, static_cast<int>(k) + 1));
+    source = &levels_[k].shrunk.texture();
+  }
+}
+
+double BloomPass::total() const {
+  const ColorTarget<1>& coarsest = levels_.back().shrunk;
+  const Image image = read_back(coarsest.framebuffer(), 0, coarsest.width(), coarsest.height(), 3);
+  double sums[3] = {0, 0, 0};
+  for (std::size_t i = 0; i < image.data.size(); ++i) sums[i % 3] += image.data[i];
+  return std::exp2(2.0 * static_cast<double>(levels_.size())) * std::max({sums[0], sums[1], sums[2]});
+}
+
+void BloomPass::add(const GlTexture& excess, float strength, const ColorTarget<1>& scratch, const ColorTarget<1>& target,
+                    const PixelRect& texels, const GlareBlur& blur) const {
+  for (const Level& level : levels_) clear(level.glow);
+  for (const BloomBlur& step : blurs_) {
+    if (step.level == 0) {
+      std::vector<float> taps = step.taps;
+      for (float& tap : taps) tap *= std::sqrt(strength);
+      blur.add(excess, scratch, target, taps, texels);
+    } else {
+      const Level& level = levels_[static_cast<std::size_t>(step.level) - 1];
+      blur.add(level.shrunk.texture(), level.scratch, level.glow, step.taps, texels_at(texels, step.level));
+    }
+  }
+  glUseProgram(up_.id());
+  const AdditiveBlending blending;
+  for (std::size_t k = levels_.size(); k-- > 0;) {
+    glProgramUniform1f(up_.id(), 0, k == 0 ? strength : 1.0f);
+    glBindTextureUnit(TEXTURE_COARSER, levels_[k].glow.texture().id());
+    draw_over(k == 0 ? target : levels_[k - 1].glow, k == 0 ? texels : texels_at(texels, static_cast<int>(k)));
+  }
+}
+
+}  // namespace catchlight::render

@@ -1,0 +1,85 @@
+// What glare looks like, and how passes on a grid get there; no GL needed. Lengths are in shares of the frame's height
+// ("heights") or in texels of a grid of so many rows a height, so that look, brightness and cost do not depend on the frame's
+// resolution.
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "catchlight.hpp"
+#include "render/compositor.hpp"
+
+namespace catchlight::render {
+
+/// The grid that glare is computed on: square texels fixed to the frame, with a margin around it for what is on its way in or
+/// out.
+struct GlareGrid {
+  double texel_px;    ///< at least 1: small frames have fewer rows
+  int columns, rows;  ///< with the margins
+
+  double rows_per_height(int frame_height) const { return frame_height / texel_px; }
+  /// Texels that touch these pixels of the frame, grown by `more` texels.
+  PixelRect texels(const PixelRect& pixels, int more) const;
+  /// Pixels of the frame under these texels.
+  PixelRect pixels(const PixelRect& texels) const;
+};
+
+GlareGrid make_glare_grid(int frame_width, int frame_height, int wanted_rows);
+
+/// Bloom is a sum of round Gaussians, each twice as wide as the one before: a narrow core with a long tail.
+struct BloomGaussian {
+  double weight;  ///< all together 1
+  double sigma_heights;
+};
+inline constexpr int kBloomGaussians = 6;
+std::array<BloomGaussian, kBloomGaussians> bloom_gaussians();
+
+/// One of them as drawn: a separable blur at level `level` of a pyramid whose levels halve the resolution.
+struct BloomBlur {
+  int level;
+  std::vector<float> taps;  ///< weights at distance 0, 1, 2 ... texels of that level, both sides together `weight`
+};
+/// In the order of their levels. What going down and up the pyramid blurs is part of the stated width.
+std::vector<BloomBlur> plan_bloom(double rows_per_height);
+
+/// Weights of a Gaussian that sum to 1 over both sides; at distance 0, 1, 2 ...
+std::vector<double> gaussian_taps(double variance);
+
+/// Across, a streak is a Gaussian of this width; along, a one-sided exponential.
+inline constexpr double kStreakSigma_heights = 0.003;
+
+/// What is left of a streak one height further on, per channel, as natural logarithm (negative).
+glm::dvec3 streak_log_per_height(const GlareSettings& settings);
+
+/// The directions in which a highlight's streaks leave it, unit vectors, y down.
+std::vector<glm::dvec2> streak_directions(int count, double rotation_deg);
+
+/// One texel that a pass reads: target - offset.
+struct StreakTap {
+  glm::ivec2 offset;
+  glm::vec3 weight;
+};
+using StreakPassTaps = std::vector<StreakTap>;
+inline constexpr int kMaxStreakTaps = 16, kMaxStreakPasses = 6;
+
+/// Kawase's passes (GDC 2003): pass p adds up samples 0, 1, 2, 3 times 4^p steps away, weighted a^(4^p s), so that all together
+/// sample 0 ... 4^passes - 1 steps away, weighted a^k. A step is one texel along the direction's larger axis; between the texels
+/// of the other axis samples are interpolated by Catmull and Rom's cubic, which moves a picture without blurring it.
+/// `log_per_texel`: ln a per texel of length; `gain`: multiplies the last pass.
+std::vector<StreakPassTaps> streak_passes(const glm::dvec2& direction, const glm::dvec3& log_per_texel, int passes,
+                                          const glm::dvec3& gain);
+
+/// Sum of those passes' weights by the trapezoidal rule, which counts the first sample half; per channel.
+glm::dvec3 streak_sum(const glm::dvec2& direction, const glm::dvec3& log_per_texel, int passes);
+
+/// How far from highlights of so much excess (sum over texels) anything is worth drawing; in texels.
+struct GlareReach {
+  double bloom_texels, streak_texels;
+};
+GlareReach glare_reach(const GlareSettings& settings, double rows_per_height, double excess);
+
+/// Passes whose 4^passes steps reach so far, unless set by hand.
+int streak_pass_count(const GlareSettings& settings, double reach_texels);
+
+}  // namespace catchlight::render
