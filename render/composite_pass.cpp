@@ -81,12 +81,12 @@ void CompositePass::upload(const Plate& plate) {
   changed_code_ = format.changed_code;
 }
 
-void CompositePass::update_uniforms(const FrameView& view, const VirtualLayer& layer, const GlareSettings& glare) {
+void CompositePass::update_uniforms(const FrameView& view, const VirtualLayer& layer, const GlareSettings& glare, bool as_light) {
   shader_interface::CompositeUniforms block{};
   block.output_rect = as_vector(rect_);
   block.virtual_rect = as_vector(layer.rect);
   block.plate_rect = as_vector(plate_rect_);
-  block.modes = {mode_of(view.color.transfer), clips_ ? 1 : 0, layer.glare ? 1 : 0, 0};
+  block.modes = {mode_of(view.color.transfer), clips_ ? 1 : 0, layer.glare ? 1 : 0, as_light ? 1 : 0};
   block.black = glm::vec4(view.black, 0);
   block.changed_code.x = changed_code_;
   block.glare = {static_cast<float>(glare.bloom_strength), static_cast<float>(glare.streak_strength), 0, 0};
@@ -115,7 +115,7 @@ void CompositePass::draw_plate_light(const FrameView& view) {
 }
 
 void CompositePass::draw(const FrameView& view, const PixelRect& rect, const VirtualLayer& layer, const GlareSettings& glare,
-                         bool with_layers) {
+                         bool with_layers, bool as_light) {
   rect_ = rect;
   const int width = roomy(rect_.width), height = roomy(rect_.height);
   if (with_layers && !(layers_ && layers_->fits(width, height))) {
@@ -124,7 +124,7 @@ void CompositePass::draw(const FrameView& view, const PixelRect& rect, const Vir
   if (!with_layers && !(output_ && output_->fits(width, height)))
     output_ = std::make_unique<ColorTarget<1>>("composite", GL_RGBA32F, width, height);
   drawn_framebuffer_ = with_layers ? layers_->framebuffer() : output_->framebuffer();
-  update_uniforms(view, layer, glare);
+  update_uniforms(view, layer, glare, as_light);
 
   reset_state();
   glBindFramebuffer(GL_FRAMEBUFFER, drawn_framebuffer_);

@@ -35,6 +35,7 @@ using glm::vec4;
 #define BINDING_EXIT_RADIANCE 3
 #define BINDING_MATERIALS 4
 #define BINDING_DIRECT_LIGHT 5
+#define BINDING_LUMINANCES 0
 
 // Textures
 #define TEXTURE_PROBE 0
@@ -122,7 +123,7 @@ UNIFORM_BLOCK(CompositeUniforms, BINDING_COMPOSITE) {
   ivec4 output_rect;
   ivec4 virtual_rect;       // what object and shadow textures hold
   ivec4 plate_rect;         // what the plate texture holds
-  ivec4 modes;              // TransferFunction, codes end at 1, glare drawn
+  ivec4 modes;              // TransferFunction, codes end at 1, glare drawn, result is linear light
   vec4 black;
   vec4 changed_code;        // x: smallest difference of codes that counts
   vec4 glare;               // bloom and streak strength
