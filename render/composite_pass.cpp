@@ -81,12 +81,12 @@ void CompositePass::upload(const Plate& plate) {
   changed_code_ = format.changed_code;
 }
 
-void CompositePass::update_uniforms(const FrameView& view, const VirtualLayer& layer) {
+void CompositePass::update_uniforms(const FrameView& view, const VirtualLayer& layer, bool as_light) {
   shader_interface::CompositeUniforms block{};
   block.output_rect = as_vector(rect_);
   block.virtual_rect = as_vector(layer.rect);
   block.plate_rect = as_vector(plate_rect_);
-  block.modes = {mode_of(view.color.transfer), clips_ ? 1 : 0, layer.pixel_glare ? 2 : layer.glare ? 1 : 0, 0};
+  block.modes = {mode_of(view.color.transfer), clips_ ? 1 : 0, layer.pixel_glare ? 2 : layer.glare ? 1 : 0, as_light ? 1 : 0};
   block.black = glm::vec4(view.black, 0);
   block.changed_code.x = changed_code_;
   if (layer.glare && !layer.pixel_glare) block.glare_from_frame = layer.glare->texels_from_frame();
@@ -102,7 +102,7 @@ void CompositePass::draw_plate_light(const FrameView& view) {
     glNamedFramebufferTexture(plate_light_framebuffer_.id(), GL_COLOR_ATTACHMENT0, plate_light_.id(), 0);
     plate_light_width_ = width, plate_light_height_ = height;
   }
-  update_uniforms(view, {});
+  update_uniforms(view, {}, false);
   reset_state();
   glBindFramebuffer(GL_FRAMEBUFFER, plate_light_framebuffer_.id());
   glViewport(0, 0, width, height);
@@ -113,7 +113,8 @@ void CompositePass::draw_plate_light(const FrameView& view) {
   glGenerateTextureMipmap(plate_light_.id());
 }
 
-void CompositePass::draw(const FrameView& view, const PixelRect& rect, const VirtualLayer& layer, bool with_layers) {
+void CompositePass::draw(const FrameView& view, const PixelRect& rect, const VirtualLayer& layer, bool with_layers,
+                         bool as_light) {
   rect_ = rect;
   const int width = roomy(rect_.width), height = roomy(rect_.height);
   if (with_layers && !(layers_ && layers_->fits(width, height))) {
@@ -122,7 +123,7 @@ void CompositePass::draw(const FrameView& view, const PixelRect& rect, const Vir
   if (!with_layers && !(output_ && output_->fits(width, height)))
     output_ = std::make_unique<ColorTarget<1>>("composite", GL_RGBA32F, width, height);
   drawn_framebuffer_ = with_layers ? layers_->framebuffer() : output_->framebuffer();
-  update_uniforms(view, layer);
+  update_uniforms(view, layer, as_light);
 
   reset_state();
   glBindFramebuffer(GL_FRAMEBUFFER, drawn_framebuffer_);

@@ -31,8 +31,11 @@ class CompositePass {
   void draw_plate_light(const FrameView& view);
   const GlTexture& plate_light() const { return plate_light_; }
 
-  /// Over `rect`, which the uploaded plate holds.
-  void draw(const FrameView& view, const PixelRect& rect, const VirtualLayer& layer, bool with_layers);
+  /// Over `rect`, which the uploaded plate holds. `as_light`: linear instead of codes, for the tone curve to go on from.
+  void draw(const FrameView& view, const PixelRect& rect, const VirtualLayer& layer, bool with_layers, bool as_light = false);
+
+  /// Of the last draw without layers: `rect` in the first texels.
+  const GlTexture& drawn() const { return output_->texture(); }
 
   /// Codes and change flags, RGBA.
   std::vector<float> read() const;
@@ -43,7 +46,7 @@ class CompositePass {
  private:
   static constexpr int kOutputs = 5;
 
-  void update_uniforms(const FrameView& view, const VirtualLayer& layer);
+  void update_uniforms(const FrameView& view, const VirtualLayer& layer, bool as_light);
 
   GlProgram program_, plate_light_program_;
   GlVertexArray no_attributes_;

@@ -16,6 +16,7 @@
 #include "render/receiver_pass.hpp"
 #include "render/scene_check.hpp"
 #include "render/shadowed_lights.hpp"
+#include "render/tone_pass.hpp"
 
 namespace catchlight::render {
 namespace {
@@ -67,7 +68,8 @@ int supported_samples(int wanted) {
 struct Compositor::Impl {
   Impl(const RenderScene& scene, const CompositorSettings& wanted);
 
-  Composite render(const FrameView& view, const PlateReader& plate, bool want_layers);
+  Composite render(const FrameView& view, const PlateReader& plate, bool want_layers, bool want_picture);
+  void apply_tone(const FrameView& view, bool want_picture, Composite& result);
   void relight(const glm::dmat3& tag_from_light);
   void update_view(const FrameView& view);
   PixelRect reach(const FrameView& view) const;
@@ -88,6 +90,7 @@ struct Compositor::Impl {
   GlarePass glare;
   std::unique_ptr<ApertureGlarePass> aperture_glare;  ///< in its place where settings.glare.method is "fft"
   CompositePass composite;
+  std::unique_ptr<TonePass> tone;  ///< null: neither a tone curve nor the classic look
   UniformBuffer<shader_interface::ViewUniforms> view_uniforms{"view"};
   std::optional<glm::dmat3> lit_from;  ///< the light's turn that the points are lit for
   std::unique_ptr<ObjectTarget> object_target;
@@ -107,7 +110,9 @@ Compositor::Impl::Impl(const RenderScene& scene, const CompositorSettings& wante
       glare(wanted.glare, wanted.shader_folder),
       composite(wanted.shader_folder) {
   settings.samples = supported_samples(wanted.samples);
-  if (wanted.glare.enabled && wanted.glare.method == "fft") aperture_glare = std::make_unique<ApertureGlarePass>(wanted.glare);
+  if (wanted.tone.enabled || wanted.look == Look::classic) tone = std::make_unique<TonePass>(wanted, wanted.shader_folder);
+  if (wanted.look == Look::classic) settings.glare.enabled = false;  // that look has its own
+  if (settings.glare.enabled && wanted.glare.method == "fft") aperture_glare = std::make_unique<ApertureGlarePass>(wanted.glare);
   if (scene.transfer.grid.columns >= 2 && scene.transfer.grid.rows >= 2)
     receiver = std::make_unique<ReceiverPass>(scene.transfer, wanted.shader_folder);
   check_gl("the compositor's start");
@@ -204,15 +209,30 @@ void Compositor::Impl::upload_plate(const PlateReader& plate, const PixelRect& r
   composite.upload(result);
 }
 
-Composite Compositor::Impl::render(const FrameView& view, const PlateReader& plate, bool want_layers) {
+/// The whole frame, drawn as linear light, becomes codes.
+void Compositor::Impl::apply_tone(const FrameView& view, bool want_picture, Composite& result) {
+  const int width = view.camera.width_px, height = view.camera.height_px;
+  {
+    const auto pass = clock.pass("meter");
+    result.tone_wanted = tone->meter(composite.drawn(), width, height, view.color);
+  }
+  if (!want_picture) return;
+  const auto pass = clock.pass("tone");
+  tone->draw_glare(composite.drawn(), width, height);
+  tone->draw(composite.drawn(), width, height, view.color, view.tone.value_or(result.tone_wanted));
+  result.rgba = tone->read();
+}
+
+Composite Compositor::Impl::render(const FrameView& view, const PlateReader& plate, bool want_layers, bool want_picture) {
   check_view(view);
   clock.begin_frame();
   times.clear();
   const PixelRect whole{0, 0, view.camera.width_px, view.camera.height_px};
-  relight(view.tag_from_light);
-  const PixelRect virtual_rect = reach(view);
+  const bool is_toned = tone && !want_layers;
+  if (view.has_pose) relight(view.tag_from_light);
+  const PixelRect virtual_rect = view.has_pose ? reach(view) : PixelRect{};
   Composite result;
-  if (virtual_rect.empty() && !want_layers) return result;
+  if (virtual_rect.empty() && !want_layers && !is_toned) return result;
 
   bool glares = false, has_whole_plate = false;
   PixelRect output_rect = virtual_rect;
@@ -232,7 +252,7 @@ Composite Compositor::Impl::render(const FrameView& view, const PlateReader& pla
       output_rect = unite(virtual_rect, result.glare_rect);
     }
   }
-  if (want_layers) output_rect = whole;
+  if (want_layers || is_toned) output_rect = whole;
 
   if (!has_whole_plate) upload_plate(plate, output_rect);
   {
@@ -241,10 +261,13 @@ Composite Compositor::Impl::render(const FrameView& view, const PlateReader& pla
                    {virtual_rect, object_target ? &object_target->color() : nullptr,
                     shadow_target ? &shadow_target->texture() : nullptr, glares ? &glare : nullptr,
                     glares && aperture_glare ? &aperture_glare->glare() : nullptr},
-                   want_layers);
+                   want_layers, is_toned);
   }
   result.rect = output_rect;
-  result.rgba = composite.read();
+  if (is_toned)
+    apply_tone(view, want_picture, result);
+  else
+    result.rgba = composite.read();
   result.glare_drawn = glares;
   if (want_layers) {
     Layers& layers = result.layers.emplace();
@@ -263,7 +286,11 @@ Compositor::Compositor(Compositor&&) noexcept = default;
 Compositor& Compositor::operator=(Compositor&&) noexcept = default;
 
 Composite Compositor::render(const FrameView& view, const PlateReader& plate, bool want_layers) {
-  return impl_->render(view, plate, want_layers);
+  return impl_->render(view, plate, want_layers, true);
+}
+
+ToneCurve Compositor::meter(const FrameView& view, const PlateReader& plate) {
+  return impl_->render(view, plate, false, false).tone_wanted;
 }
 
 const std::vector<PassTime>& Compositor::pass_times() const {

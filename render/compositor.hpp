@@ -16,6 +16,7 @@
 #include "render/mesh.hpp"
 #include "render/prefilter.hpp"
 #include "render/sh.hpp"
+#include "render/tone_curve.hpp"
 #include "render/transfer.hpp"
 
 namespace catchlight::render {
@@ -63,9 +64,14 @@ struct GlareSettings {
   double aperture_strength = 1;  ///< 1: as much as the aperture diffracts
 };
 
+/// `classic`: bloom and streaks of the whole picture as in render/classic_look.hpp, instead of those of the object's highlights.
+enum class Look { camera, classic };
+
 struct CompositorSettings {
   GlareSettings glare;
-  int samples = 4;  ///< multisampling of the object's edges
+  Look look = Look::camera;
+  ToneSettings tone;  ///< with it, or with the classic look, every pixel of every frame changes
+  int samples = 4;    ///< multisampling of the object's edges
   int reflection_rays =
       16;  ///< over the lobe of a rough surface; 0: only the probe is mirrored, neither the object nor the receiver
   std::string shader_folder;  ///< overrides the embedded shaders where not empty
@@ -85,6 +91,8 @@ struct FrameView {
   glm::vec3 black{0.0f};
   PlateColor color;
   glm::dmat3 tag_from_light{1.0};  ///< turns the light against the tag (probe fixed to the camera)
+  bool has_pose = true;            ///< false: nothing virtual is drawn; the tone curve, where there is one, is
+  std::optional<ToneCurve> tone;   ///< what the exposure has adapted to; none: what the frame itself calls for
 };
 
 /// Layers for compositing packages, whole frame, premultiplied, exposed linear in the plate's primaries. r = plate * shadow * (1
@@ -101,6 +109,7 @@ struct Composite {
   bool glare_drawn = false;
   PixelRect glare_rect;  ///< what glare reaches, where it is drawn
   std::optional<Layers> layers;
+  ToneCurve tone_wanted;  ///< what the frame calls for, where tone settings are enabled
 };
 
 /// Milliseconds by pass name, in drawing order.
@@ -119,7 +128,11 @@ class Compositor {
   Compositor& operator=(Compositor&&) noexcept;
 
   /// Deterministic: the same input gives the same bytes. Holds no state between frames but buffers.
+  /// With layers there is no tone curve: they are the scene's light, for a compositing package to expose.
   Composite render(const FrameView& view, const PlateReader& plate, bool want_layers = false);
+
+  /// Composite::tone_wanted alone: the frame is drawn, but neither coded nor read back.
+  ToneCurve meter(const FrameView& view, const PlateReader& plate);
 
   /// Of the last frame.
   const std::vector<PassTime>& pass_times() const;

@@ -9,7 +9,7 @@ layout(binding = TEXTURE_SHADOW) uniform sampler2D shadow;    // ratio
 layout(binding = TEXTURE_PLATE) uniform sampler2D plate;      // codes
 layout(binding = TEXTURE_GLARE) uniform sampler2D glare_grid; // exposed linear
 
-layout(location = 0) out vec4 result;  // codes; alpha 1 where changed
+layout(location = 0) out vec4 result;  // codes, alpha 1 where changed; or linear light
 // Layers, linear: result = plate * shadow * (1 - object.a) + object + glare.
 layout(location = 1) out vec4 plate_layer;
 layout(location = 2) out vec4 object_layer;
@@ -47,7 +47,7 @@ void main() {
   if (composite.modes.y != 0) new_code = clamp(new_code, 0.0, 1.0);
   // A NaN in the plate compares as changed once something virtual covers it.
   bool changed = !untouched && !all(lessThanEqual(abs(new_code - code), composite.changed_code.xxx));
-  result = vec4(new_code, changed ? 1.0 : 0.0);
+  result = composite.modes.w != 0 ? vec4(light, 1.0) : vec4(new_code, changed ? 1.0 : 0.0);  // tone.frag goes on from light
 
   plate_layer = vec4(background, 1.0);
   object_layer = over;

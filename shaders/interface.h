@@ -38,6 +38,7 @@ using glm::vec4;
 #define BINDING_EXIT_RADIANCE 3
 #define BINDING_MATERIALS 4
 #define BINDING_DIRECT_LIGHT 5
+#define BINDING_LUMINANCES 0
 
 // Textures
 #define TEXTURE_PROBE 0
@@ -51,6 +52,8 @@ using glm::vec4;
 #define TEXTURE_SHADOW 1
 #define TEXTURE_PLATE 2
 #define TEXTURE_GLARE 3
+#define TEXTURE_BLOOM 3
+#define TEXTURE_STREAKS 4
 #define TEXTURE_SOURCE 0
 #define TEXTURE_COARSER 1
 #define TEXTURE_EMISSION 1
@@ -125,7 +128,7 @@ UNIFORM_BLOCK(CompositeUniforms, BINDING_COMPOSITE) {
   ivec4 output_rect;
   ivec4 virtual_rect;       // what object and shadow textures hold
   ivec4 plate_rect;         // what the plate texture holds
-  ivec4 modes;              // TransferFunction, codes end at 1, glare (1: on its grid, 2: by pixels)
+  ivec4 modes;              // TransferFunction, codes end at 1, glare (1: on its grid, 2: by pixels), result is linear light
   vec4 black;
   vec4 changed_code;        // x: smallest difference of codes that counts
   vec4 glare_from_frame;    // texels of the glare = pixel * xy + zw
