@@ -6,6 +6,7 @@
 #include "app/debug_drawing.hpp"
 #include "app/exposure.hpp"
 #include "app/progress.hpp"
+#include "render/aperture_picture.hpp"
 
 namespace catchlight::app {
 
@@ -136,6 +137,8 @@ Stage build_stage(const SceneSettings& scene, Log& log, Report& report) {
   report.plan = stage.built.plan;
   render::CompositorSettings settings;
   settings.glare = scene.glare;
+  if (!render::is_drawn_aperture(scene.glare.aperture) && !scene.glare.aperture.empty())
+    settings.glare.aperture = scene.resolve(scene.glare.aperture);
   settings.samples = scene.quality.samples;
   settings.reflection_rays = scene.quality.reflection_rays;
   stage.compositor = std::make_unique<render::Compositor>(stage.built.scene, settings);

@@ -1,4 +1,5 @@
 #include "app/parameters.hpp"
+#include "render/aperture_picture.hpp"
 #include "render/compositor.hpp"
 #include "render/sh.hpp"
 #include "tracking/tracker.hpp"
@@ -91,6 +92,19 @@ std::vector<Parameter> make_table() {
        RealKind{[](Scene& s) -> double& { return s.glare.streak_attenuation; }, 0, 0.999}},
       {"glare.streak_rotation_deg", "deg", "Direction of the first arm.",
        RealKind{[](Scene& s) -> double& { return s.glare.streak_rotation_deg; }, -360, 360}},
+
+      {"glare.method", "",
+       "\"fast\": bloom and streaks. \"fft\": what glare.aperture diffracts, by FFT at full resolution; seconds a frame.",
+       ChoiceKind{[](Scene& s) -> std::string& { return s.glare.method; }, {"fast", "fft"}}},
+      {"glare.aperture", "",
+       "With \"fft\": `blades:N`, `eyelashes`, `dust`, `circle`, or the file of a square picture, white where light passes.",
+       PathKind{[](Scene& s) -> std::string& { return s.glare.aperture; },
+                [](const std::string& name) { return name.empty() || render::is_drawn_aperture(name); }}},
+      {"glare.aperture_mm", "mm", "Width of that picture: half of it makes the glare twice as wide.",
+       RealKind{[](Scene& s) -> double& { return s.glare.aperture_mm; }, 0.05, 100}},
+      {"glare.aperture_strength", "",
+       "Share of what the aperture diffracts that is added, instead of bloom_strength and streak_strength; 1: all.",
+       RealKind{[](Scene& s) -> double& { return s.glare.aperture_strength; }, 0, 1000}},
 
       {"lens.noise", "", "Gives the virtual layer the footage's grain.",
        SwitchKind{[](Scene& s) -> Switch& { return s.lens.noise; }, false}},
