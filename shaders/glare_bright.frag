@@ -3,7 +3,7 @@
 #version 450 core
 #include "interface.h"
 
-layout(binding = TEXTURE_SOURCE) uniform sampler2D light;
+layout(binding = TEXTURE_SOURCE) uniform sampler2D filtered;
 layout(location = 0) uniform float threshold;
 layout(location = 1) uniform float brightest;
 layout(location = 2) uniform float emitter_strength;
@@ -13,19 +13,19 @@ layout(location = 1) out vec4 emitted;
 const float kBinomial[5] = float[](0.0625, 0.25, 0.375, 0.25, 0.0625);
 
 void main() {
-  ivec2 here = ivec2(gl_FragCoord.xy), size = textureSize(light, 0);
+  ivec2 here = ivec2(gl_FragCoord.xy), size = textureSize(filtered, 0);
   float highest = 0.0, mean = 0.0;
   for (int y = -2; y <= 2; ++y) {
     for (int x = -2; x <= 2; ++x) {
       ivec2 texel = here + ivec2(x, y);
       if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, size))) continue;
-      vec3 there = texelFetch(light, texel, 0).rgb;
+      vec3 there = texelFetch(filtered, texel, 0).rgb;
       float peak = max(there.r, max(there.g, there.b));
       highest = max(highest, peak);
       mean += kBinomial[x + 2] * kBinomial[y + 2] * peak;
     }
   }
-  vec4 found = texelFetch(light, here, 0);
+  vec4 found = texelFetch(filtered, here, 0);
   // The gate opens for all of a highlight at once, and once open lets its light through in proportion: a threshold on each texel
   // would take another share of it wherever it falls on the grid. The mean, not the texel, is held down for the same reason.
   vec3 kept = found.rgb * smoothstep(threshold, 1.5 * threshold, highest) / (1.0 + mean / brightest);
