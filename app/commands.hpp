@@ -27,6 +27,7 @@ struct Command {
 
 void set_up_bake(CLI::App& command, Context& context);
 void set_up_calibrate(CLI::App& command, Context& context);
+void set_up_glare(CLI::App& command, Context& context);
 void set_up_info(CLI::App& command, Context& context);
 void set_up_overlay(CLI::App& command, Context& context);
 void set_up_params(CLI::App& command, Context& context);

@@ -11,6 +11,7 @@ constexpr Command kCommands[] = {
     {"reference", "Path trace one frame with the object in it, to compare an overlay with", set_up_reference},
     {"bake", "Precompute how light travels over a recording's objects", set_up_bake},
     {"probe", "Look at light probes and convert them", set_up_probe},
+    {"glare", "Show what an aperture makes of a bright light", set_up_glare},
     {"tag", "Print a tag or a board of tags at its exact size: PDF, SVG, PNG", set_up_tag},
     {"calibrate", "Make camera.yaml from footage of a checkerboard or a board of tags", set_up_calibrate},
     {"info", "Versions, libraries and graphics: what a bug report needs", set_up_info},

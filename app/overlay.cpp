@@ -2,10 +2,12 @@
 
 #include <charconv>
 #include <chrono>
+#include <cmath>
 
 #include "app/debug_drawing.hpp"
 #include "app/exposure.hpp"
 #include "app/progress.hpp"
+#include "render/aperture_picture.hpp"
 
 namespace catchlight::app {
 
@@ -102,6 +104,27 @@ OverlayResult run(MediaSource& source, FrameTrack& track, const FrameRange& rang
   return result;
 }
 
+void count_glare(const render::Composite& composite, const CameraModel& camera, Report& report) {
+  if (!composite.glare_drawn) return;
+  const PixelRect& reached = composite.glare_rect;
+  const double share =
+      static_cast<double>(reached.width) * reached.height / (static_cast<double>(camera.width_px) * camera.height_px);
+  ++report.glare_frames;
+  report.glare_share += (share - report.glare_share) / static_cast<double>(report.glare_frames);
+}
+
+void add_glare_to_plan(const SceneSettings& scene, Report& report) {
+  if (!scene.glare.enabled) {
+    report.plan.push_back({"glare", "off", "glare.enabled is false"});
+    return;
+  }
+  const std::string percent = std::to_string(std::lround(100 * report.glare_share)) + " % of the frame";
+  report.plan.push_back({"glare",
+                         "in " + std::to_string(report.glare_frames) + " of " + std::to_string(report.frames) + " frames",
+                         report.glare_frames == 0 ? "nothing of the object exceeds the sensor's white"
+                                                  : "light over the sensor's white; it reached " + percent + " on average"});
+}
+
 }  // namespace
 
 FrameRange parse_frame_range(const std::string& text) {
@@ -136,6 +159,8 @@ Stage build_stage(const SceneSettings& scene, Log& log, Report& report) {
   report.plan = stage.built.plan;
   render::CompositorSettings settings;
   settings.glare = scene.glare;
+  if (!render::is_drawn_aperture(scene.glare.aperture) && !scene.glare.aperture.empty())
+    settings.glare.aperture = scene.resolve(scene.glare.aperture);
   settings.samples = scene.quality.samples;
   settings.reflection_rays = scene.quality.reflection_rays;
   stage.compositor = std::make_unique<render::Compositor>(stage.built.scene, settings);
@@ -151,6 +176,7 @@ OverlayResult run_overlay(MediaSource& source, FrameTrack& track, Stage& stage, 
       const render::FrameView view = frame_view(camera, scene, stage.built, row, frame);
       composite = stage.compositor->render(
           view, [&](const PixelRect& rect) { return frame.rgb(rect); }, output.wants_layers());
+      count_glare(composite, camera, report);
       for (const render::PassTime& pass : stage.compositor->pass_times()) report.stages.add(pass.name, pass.ms);
     }
     if (stage.draws_debug) draw_debug(frame, row, camera, scene.tag.size_m, composite);
@@ -160,6 +186,7 @@ OverlayResult run_overlay(MediaSource& source, FrameTrack& track, Stage& stage, 
     throw Error("no frame of the footage lies in --frames; it has " + std::to_string(source.info().frame_count.value_or(0)) +
                 " from " + std::to_string(source.info().first_number));
   output.finish();
+  add_glare_to_plan(scene, report);
   warn_of_lost_frames(report, log);
   return result;
 }

@@ -1,4 +1,5 @@
 #include "app/parameters.hpp"
+#include "render/aperture_picture.hpp"
 #include "render/compositor.hpp"
 #include "render/sh.hpp"
 #include "tracking/tracker.hpp"
@@ -79,8 +80,11 @@ std::vector<Parameter> make_table() {
 
       {"glare.enabled", "", "Whether what exceeds the sensor's white spills as bloom and streaks.",
        FlagKind{[](Scene& s) -> bool& { return s.glare.enabled; }}},
-      {"glare.threshold", "", "Exposed linear value above which the lens spills; 1 is the sensor's white.",
+      {"glare.threshold", "",
+       "Exposed linear value above which the lens spills, 1 is the sensor's white; from half as much again all of a highlight.",
        RealKind{[](Scene& s) -> double& { return s.glare.threshold; }, 0, 1000}},
+      {"glare.brightest", "", "Exposed linear value that a highlight's glare tends to, however bright it is.",
+       RealKind{[](Scene& s) -> double& { return s.glare.brightest; }, 1, 1e6}},
       {"glare.bloom_strength", "", "Share of the excess that becomes bloom.",
        RealKind{[](Scene& s) -> double& { return s.glare.bloom_strength; }, 0, 10}},
       {"glare.streak_strength", "", "Share of the excess that becomes streaks.",
@@ -89,8 +93,36 @@ std::vector<Parameter> make_table() {
        IntegerKind{[](Scene& s) -> int& { return s.glare.streak_directions; }, 1, 16}},
       {"glare.streak_attenuation", "", "What is left of a streak a pixel further on, at a frame height of 480 px.",
        RealKind{[](Scene& s) -> double& { return s.glare.streak_attenuation; }, 0, 0.999}},
+      {"glare.streak_dispersion", "",
+       "Colours of the streaks: 0 none, 1 as long as each colour's wavelength makes them, more exaggerates.",
+       RealKind{[](Scene& s) -> double& { return s.glare.streak_dispersion; }, 0, 5}},
       {"glare.streak_rotation_deg", "deg", "Direction of the first arm.",
        RealKind{[](Scene& s) -> double& { return s.glare.streak_rotation_deg; }, -360, 360}},
+      {"glare.emitter_strength", "", "Glare of what the object's own materials emit, as a factor on that of its reflections.",
+       RealKind{[](Scene& s) -> double& { return s.glare.emitter_strength; }, 0, 100}},
+      {"glare.emitter_directions", "", "Number of arms of what the object's own materials emit; 0: as its reflections.",
+       IntegerKind{[](Scene& s) -> int& { return s.glare.emitter_directions; }, 0, 16}},
+      {"glare.streak_passes", "",
+       "Passes of four samples that a streak is drawn in, which reach 4 to that power texels; 0: as many as can be seen.",
+       IntegerKind{[](Scene& s) -> int& { return s.glare.streak_passes; }, 0, 6}},
+      {"glare.grid_rows", "",
+       "Resolution that glare is computed at, in rows of the whole frame; its texels are never below a pixel.",
+       IntegerKind{[](Scene& s) -> int& { return s.glare.grid_rows; }, 60, 2160}},
+
+      {"glare.method", "",
+       "\"fast\": bloom and streaks. \"fft\": by FFT at full resolution, what glare.aperture diffracts; seconds a frame.",
+       ChoiceKind{[](Scene& s) -> std::string& { return s.glare.method; }, {"fast", "fft"}}},
+      {"glare.aperture", "",
+       "With \"fft\": `blades:N`, `eyelashes`, `dust`, `circle`, or the file of a square picture, white where light passes; "
+       "none: the "
+       "bloom and streaks of \"fast\", convolved.",
+       PathKind{[](Scene& s) -> std::string& { return s.glare.aperture; },
+                [](const std::string& name) { return name.empty() || render::is_drawn_aperture(name); }}},
+      {"glare.aperture_mm", "mm", "Width of that picture: half of it makes the glare twice as wide.",
+       RealKind{[](Scene& s) -> double& { return s.glare.aperture_mm; }, 0.05, 100}},
+      {"glare.aperture_strength", "",
+       "Share of what the aperture diffracts that is added, instead of bloom_strength and streak_strength; 1: all.",
+       RealKind{[](Scene& s) -> double& { return s.glare.aperture_strength; }, 0, 1000}},
 
       {"lens.noise", "", "Gives the virtual layer the footage's grain.",
        SwitchKind{[](Scene& s) -> Switch& { return s.lens.noise; }, false}},

@@ -70,7 +70,7 @@ struct Store {
   bool operator()(const TextKind& kind) const { return store_as<std::string>(kind.access); }
   bool operator()(const PathKind& kind) const {
     const auto* path = std::get_if<std::string>(&value);
-    return path && !path->empty() && store_as<std::string>(kind.access);
+    return path && (!path->empty() || (kind.is_name && kind.is_name(*path))) && store_as<std::string>(kind.access);
   }
   bool operator()(const ChoiceKind& kind) const {
     const auto* text = std::get_if<std::string>(&value);
@@ -138,8 +138,8 @@ ParameterValue value_from_text(const Parameter& parameter, const std::string& te
                             [&](const IntegerKind&) -> std::optional<ParameterValue> { return integer_from_text(text); },
                             [&](const FlagKind&) { return flag(); }, [&](const SwitchKind&) { return flag(); },
                             [&](const VectorKind&) { return vector_from_text(text); },
-                            [&](const PathKind&) -> std::optional<ParameterValue> {
-                              if (text.empty()) return std::nullopt;
+                            [&](const PathKind& kind) -> std::optional<ParameterValue> {
+                              if (text.empty() || (kind.is_name && kind.is_name(text))) return std::nullopt;
                               return std::filesystem::absolute(text).string();
                             },
                             [](const auto&) -> std::optional<ParameterValue> { return std::nullopt; }},

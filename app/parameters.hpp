@@ -32,7 +32,8 @@ struct TextKind {
   Access<std::string> access;
 };
 struct PathKind {
-  Access<std::string> access;  ///< relative to the scene file; on the command line, to the working folder
+  Access<std::string> access;                     ///< relative to the scene file; on the command line, to the working folder
+  bool (*is_name)(const std::string&) = nullptr;  ///< of something else than a file, also the empty text
 };
 struct ChoiceKind {
   Access<std::string> access;

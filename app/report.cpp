@@ -55,6 +55,7 @@ std::string report_json(const Report& report) {
                               {"tracked_frames", report.tracked_frames},
                               {"coasting_frames", report.coasting_frames},
                               {"lost_frames", report.lost_frames},
+                              {"glare", {{"frames", report.glare_frames}, {"share", report.glare_share}}},
                               {"fps", report.fps},
                               {"renderer", report.renderer},
                               {"stages", nlohmann::ordered_json::object()},

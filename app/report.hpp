@@ -45,14 +45,17 @@ class StageTimer {
 
 struct Report {
   std::int64_t frames = 0, tracked_frames = 0, coasting_frames = 0, lost_frames = 0;
-  double fps = 0;        ///< frames a second of wall-clock time, scene building left out
-  std::string renderer;  ///< GL_RENDERER
+  std::int64_t glare_frames = 0;  ///< in which glare was drawn
+  double glare_share = 0;         ///< of the frame that it reached in those, on average
+  double fps = 0;                 ///< frames a second of wall-clock time, scene building left out
+  std::string renderer;           ///< GL_RENDERER
   StageTimer stages;
   std::vector<PlanEntry> plan;
   std::vector<std::string> warnings;
 };
 
-/// JSON: frames, tracked_frames, coasting_frames, lost_frames, fps, renderer, stages.{name}.{median_ms,p95_ms}, plan, warnings.
+/// JSON: frames, tracked_frames, coasting_frames, lost_frames, glare.{frames,share}, fps, renderer,
+/// stages.{name}.{median_ms,p95_ms}, plan, warnings.
 std::string report_json(const Report& report);
 
 /// Written beside and renamed; throws as write_text_file.

@@ -1,4 +1,4 @@
-// The glare of an aperture in place of the fast passes: read back, convolved on the CPU, uploaded.
+// Glare by convolution in place of the fast passes: read back, convolved on the CPU, uploaded.
 #pragma once
 
 #include <optional>

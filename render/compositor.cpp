@@ -76,6 +76,7 @@ struct Compositor::Impl {
   bool mirrors_receiver(const FrameView& view) const;
   void upload_plate(const PlateReader& plate, const PixelRect& rect);
   void make_targets(const PixelRect& rect, bool want_layers);
+  bool divides_glare() const;
   bool draw_virtual_layer(const FrameView& view, const PixelRect& rect);
 
   CompositorSettings settings;
@@ -173,10 +174,17 @@ bool Compositor::Impl::mirrors_receiver(const FrameView& view) const {
 void Compositor::Impl::make_targets(const PixelRect& rect, bool want_layers) {
   const int width = roomy(rect.width), height = roomy(rect.height);
   if (!object_target || !object_target->fits(width, height, want_layers)) {
-    object_target = std::make_unique<ObjectTarget>(width, height, settings.samples, want_layers);
+    object_target = std::make_unique<ObjectTarget>(width, height, settings.samples, want_layers, divides_glare());
   }
   if (!shadow_target || !shadow_target->fits(width, height))
     shadow_target = std::make_unique<ColorTarget<1>>("shadow", GL_RGBA32F, width, height);
+}
+
+/// What the object emits glares otherwise than what it reflects.
+bool Compositor::Impl::divides_glare() const {
+  const GlareSettings& g = settings.glare;
+  return g.enabled && object.emits() &&
+         (g.emitter_strength != 1 || (g.emitter_directions != 0 && g.emitter_directions != g.streak_directions));
 }
 
 /// Object, shadow and what glares of them. True if anything does.
@@ -199,7 +207,8 @@ bool Compositor::Impl::draw_virtual_layer(const FrameView& view, const PixelRect
   if (!settings.glare.enabled) return false;
   const auto pass = clock.pass("highlights");
   if (aperture_glare) return aperture_glare->extract(object_target->color(), rect, width, height);
-  return glare.extract(object_target->color(), nullptr, rect, width, height);
+  const GlTexture* emission = divides_glare() ? &object_target->emission() : nullptr;
+  return glare.extract(object_target->color(), emission, rect, width, height);
 }
 
 void Compositor::Impl::upload_plate(const PlateReader& plate, const PixelRect& rect) {

@@ -50,14 +50,16 @@ struct GlareSettings {
   bool enabled = true;
   double threshold = 1.0;  ///< exposed linear value above which the lens spills; 1 = sensor white
   double brightest = 3e4;  ///< what the light of a highlight tends to, however bright it is
-  double bloom_strength = 0.08;
-  double streak_strength = 0.06;
+  double bloom_strength = 0.05;
+  double streak_strength = 0.04;
   int streak_directions = 4;
   double streak_attenuation = 0.92;  ///< a of a^k, per pixel at a frame height of 480 px
   double streak_dispersion = 0;      ///< 1: a streak is as long as its colour's wavelength says; 0: all alike
   double streak_rotation_deg = 45;
-  int streak_passes = 0;  ///< of four samples each; 0: as many as can be seen
-  int grid_rows = 240;    ///< resolution that glare is computed at; texels are never smaller than pixels
+  double emitter_strength = 1;   ///< of what the object's materials emit, against what else is as bright
+  int emitter_directions = 0;    ///< streaks of what they emit; 0: as of the rest
+  int streak_passes = 0;         ///< of four samples each; 0: as many as can be seen
+  int grid_rows = 240;           ///< resolution that glare is computed at; texels are never smaller than pixels
   std::string method = "fast";   ///< or "fft": of an aperture, as render/fft_glare.hpp says
   std::string aperture;          ///< what aperture_picture() takes
   double aperture_mm = 2;        ///< width of its picture

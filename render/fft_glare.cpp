@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "render/glare_kernel.hpp"
+
 namespace catchlight::render {
 namespace {
 
@@ -70,21 +72,24 @@ std::optional<Image> excess_of(const Image& object, const PixelRect& rect, int f
 }
 
 FftGlare::FftGlare(const GlareSettings& settings) : settings_(settings) {
-  if (settings.aperture.empty())
-    throw Error(
-        "glare.method \"fft\" needs glare.aperture: \"blades:6\", \"eyelashes\", \"dust\", \"circle\" or a picture's file");
-  picture_ = aperture_picture(settings.aperture);
+  if (!settings.aperture.empty()) picture_ = aperture_picture(settings.aperture);
+}
+
+Image FftGlare::aperture_kernel(const CameraModel& camera, double focal_px) const {
+  const ApertureOptics optics{settings_.aperture_mm, focal_px};
+  const AperturePlan plan = plan_aperture(optics, std::max(camera.width_px, camera.height_px), picture_->most_px);
+  const ApertureFarField field(picture_->draw(plan.picture_px), plan.transform_px);
+  Image glare = glare_of(aperture_psf(field, optics, plan.reach_px));
+  for (float& value : glare.data) value *= static_cast<float>(settings_.aperture_strength);
+  return glare;
 }
 
 void FftGlare::prepare(const CameraModel& camera) {
   const double focal_px = std::sqrt(camera.fx_px * camera.fy_px);
   if (convolution_ && camera.width_px == width_px_ && camera.height_px == height_px_ && focal_px == focal_px_) return;
-  const ApertureOptics optics{settings_.aperture_mm, focal_px};
-  const AperturePlan plan = plan_aperture(optics, std::max(camera.width_px, camera.height_px), picture_.most_px);
-  const ApertureFarField field(picture_.draw(plan.picture_px), plan.transform_px);
-  Image glare = glare_of(aperture_psf(field, optics, plan.reach_px));
-  for (float& value : glare.data) value *= static_cast<float>(settings_.aperture_strength);
-  convolution_ = std::make_unique<FftConvolution>(glare, camera.width_px, camera.height_px);
+  const Image kernel = picture_ ? aperture_kernel(camera, focal_px)
+                                : glare_kernel(settings_, camera.height_px, 2 * camera.width_px - 1, 2 * camera.height_px - 1);
+  convolution_ = std::make_unique<FftConvolution>(kernel, camera.width_px, camera.height_px);
   width_px_ = camera.width_px, height_px_ = camera.height_px, focal_px_ = focal_px;
 }
 

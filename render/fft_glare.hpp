@@ -1,5 +1,5 @@
-// Glare of an aperture: what exceeds the sensor's white, convolved at the frame's own resolution with the aperture's point-spread
-// function. Offline quality: seconds a frame. No GL needed.
+// Glare by convolution: what exceeds the sensor's white, at the frame's own resolution, with an aperture's point-spread function
+// or with the kernel that the fast passes stand for. Offline quality: seconds a frame. No GL needed.
 #pragma once
 
 #include <memory>
@@ -20,19 +20,21 @@ std::optional<Image> excess_of(const Image& object, const PixelRect& rect, int f
 
 class FftGlare {
  public:
-  /// Throws Error where settings.aperture cannot be used, and where it is empty.
+  /// Throws Error where settings.aperture cannot be used.
   explicit FftGlare(const GlareSettings& settings);
 
-  /// Light that the aperture adds to the frame, for an excess of the camera's own frame size: settings.aperture_strength times
-  /// the excess convolved with the point-spread function without its middle pixel; 0 where a quarter of a 12-bit code cannot show
-  /// it. The kernel is made anew where the camera is another.
+  /// Light that is added to the frame, for an excess of the camera's own frame size, and 0 where a quarter of a 12-bit code
+  /// cannot show it. With an aperture: settings.aperture_strength times the excess convolved with the point-spread function
+  /// without its middle pixel; without: the excess convolved with glare_kernel(). The kernel is made anew where the camera is
+  /// another.
   Image spread(const Image& excess, const CameraModel& camera);
 
  private:
   void prepare(const CameraModel& camera);
+  Image aperture_kernel(const CameraModel& camera, double focal_px) const;
 
   GlareSettings settings_;
-  AperturePicture picture_;
+  std::optional<AperturePicture> picture_;  ///< none: the closed form
   std::unique_ptr<FftConvolution> convolution_;
   int width_px_ = 0, height_px_ = 0;
   double focal_px_ = 0;

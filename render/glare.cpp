@@ -38,6 +38,8 @@ void GlarePass::make_targets(int frame_width, int frame_height) {
   };
   light_ = target("light to glare");
   excess_ = target("excess");
+  reflected_.reset();
+  emitted_.reset();
   scratch_ = target("glare rows");
   narrow_ = target("streak source");
   glow_ = target("glare");
@@ -65,6 +67,20 @@ void GlarePass::filter(const GlTexture& object, const GlTexture* emission, const
   draw_over(*light_, bright_texels_);
 }
 
+/// The excess comes in two parts beside its sum, ready for their own streaks.
+void GlarePass::attach_parts() {
+  if (!emitted_) {
+    for (auto* part : {&reflected_, &emitted_})
+      *part = std::make_unique<ColorTarget<1>>(make_glare_target("part of the excess", grid_.columns, grid_.rows));
+    const GLenum drawn[3] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2};
+    glNamedFramebufferTexture(excess_->framebuffer(), drawn[1], reflected_->texture().id(), 0);
+    glNamedFramebufferTexture(excess_->framebuffer(), drawn[2], emitted_->texture().id(), 0);
+    glNamedFramebufferDrawBuffers(excess_->framebuffer(), 3, drawn);
+  }
+  clear(*reflected_);
+  clear(*emitted_);
+}
+
 bool GlarePass::extract(const GlTexture& object, const GlTexture* emission, const PixelRect& rect, int frame_width,
                         int frame_height) {
   if (!glow_ || frame_width != frame_width_ || frame_height != frame_height_) make_targets(frame_width, frame_height);
@@ -72,11 +88,13 @@ bool GlarePass::extract(const GlTexture& object, const GlTexture* emission, cons
   glBindVertexArray(no_attributes_.id());
   bright_texels_ = grid_.texels(rect, kFilterReach);
   filter(object, emission, rect);
+  divided_ = emission && settings_.emitter_directions != 0;
+  if (divided_) attach_parts();
   clear(*excess_);
   glUseProgram(bright_.id());
   glProgramUniform1f(bright_.id(), 0, std::max(static_cast<float>(settings_.threshold), 1e-6f));
   glProgramUniform1f(bright_.id(), 1, static_cast<float>(settings_.brightest));
-  glProgramUniform1f(bright_.id(), 2, 1.0f);
+  glProgramUniform1f(bright_.id(), 2, static_cast<float>(settings_.emitter_strength));
   glBindTextureUnit(TEXTURE_SOURCE, light_->texture().id());
   glBeginQuery(GL_ANY_SAMPLES_PASSED, any_bright_.id());
   draw_over(*excess_, bright_texels_);
@@ -91,15 +109,18 @@ PixelRect GlarePass::spread() {
   glBindVertexArray(no_attributes_.id());
   bloom_.shrink(excess_->texture(), bright_texels_);
   const double rows_per_height = grid_.rows_per_height(frame_height_);
-  const GlareReach reach = glare_reach(settings_, rows_per_height, bloom_.total());
+  const auto [total, light] = bloom_.brightness();
+  const GlareReach reach = glare_reach(settings_, rows_per_height, total);
   const int grow = static_cast<int>(std::ceil(std::max(reach.bloom_texels, reach.streak_texels)));
-  const PixelRect texels = intersect(
-      {bright_texels_.x - grow, bright_texels_.y - grow, bright_texels_.width + 2 * grow, bright_texels_.height + 2 * grow},
-      {0, 0, grid_.columns, grid_.rows});
+  const PixelRect texels = intersect({light.x - grow, light.y - grow, light.width + 2 * grow, light.height + 2 * grow},
+                                     {0, 0, grid_.columns, grid_.rows});
   clear(*glow_);
   if (settings_.bloom_strength > 0)
     bloom_.add(excess_->texture(), static_cast<float>(settings_.bloom_strength), *scratch_, *glow_, texels, blur_);
-  if (settings_.streak_strength > 0) add_streaks(excess_->texture(), settings_.streak_directions, reach.streak_texels, texels);
+  if (settings_.streak_strength > 0) {
+    add_streaks((divided_ ? *reflected_ : *excess_).texture(), settings_.streak_directions, reach.streak_texels, texels);
+    if (divided_) add_streaks(emitted_->texture(), settings_.emitter_directions, reach.streak_texels, texels);
+  }
   return intersect(grid_.pixels(texels), {0, 0, frame_width_, frame_height_});
 }
 
@@ -125,6 +146,10 @@ void GlarePass::add_streaks(const GlTexture& excess, int directions, double reac
 
 Image GlarePass::read_excess() const {
   return read_back(excess_->framebuffer(), 0, grid_.columns, grid_.rows, 3);
+}
+
+Image GlarePass::read_glare() const {
+  return read_back(glow_->framebuffer(), 0, grid_.columns, grid_.rows, 3);
 }
 
 glm::vec4 GlarePass::texels_from_frame() const {

@@ -30,12 +30,14 @@ class GlarePass {
 
   /// What is added to the frame, exposed linear light, strengths included, on the same grid; to be read as a cubic B-spline.
   const GlTexture& glare() const { return glow_->texture(); }
+  Image read_glare() const;
   /// Coordinates of the glare's texels: pixel of the frame times xy plus zw.
   glm::vec4 texels_from_frame() const;
 
  private:
   void make_targets(int frame_width, int frame_height);
   void filter(const GlTexture& object, const GlTexture* emission, const PixelRect& rect);
+  void attach_parts();
   void add_streaks(const GlTexture& excess, int directions, double reach_texels, const PixelRect& texels) const;
 
   GlareSettings settings_;
@@ -48,7 +50,8 @@ class GlarePass {
   GlareGrid grid_{};
   PixelRect bright_texels_;  ///< where the excess may be
   int frame_width_ = 0, frame_height_ = 0;
-  std::unique_ptr<ColorTarget<1>> filtered_rows_, light_, excess_, scratch_, narrow_, glow_;
+  bool divided_ = false;  ///< what is emitted has streaks of its own
+  std::unique_ptr<ColorTarget<1>> filtered_rows_, reflected_, emitted_, light_, excess_, scratch_, narrow_, glow_;
 };
 
 }  // namespace catchlight::render

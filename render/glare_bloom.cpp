@@ -8,6 +8,11 @@
 #include "shaders/interface.h"
 
 namespace catchlight::render {
+namespace {
+
+constexpr std::size_t kReadLevel = 3;
+
+}  // namespace
 
 BloomPass::BloomPass(const std::string& shader_folder)
     : down_(make_program({.vertex = "fullscreen.vert", .fragment = "glare_down.frag", .captured = {}}, shader_folder)),
@@ -49,12 +54,23 @@ void BloomPass::shrink(const GlTexture& excess, const PixelRect& texels) {
   }
 }
 
-double BloomPass::total() const {
-  const ColorTarget<1>& coarsest = levels_.back().shrunk;
-  const Image image = read_back(coarsest.framebuffer(), 0, coarsest.width(), coarsest.height(), 3);
-  double sums[3] = {0, 0, 0};
-  for (std::size_t i = 0; i < image.data.size(); ++i) sums[i % 3] += image.data[i];
-  return std::exp2(2.0 * static_cast<double>(levels_.size())) * std::max({sums[0], sums[1], sums[2]});
+BloomPass::Brightness BloomPass::brightness() const {
+  // Small enough to be read back, and fine enough to tell where the light is.
+  const std::size_t level = std::min<std::size_t>(kReadLevel, levels_.size());
+  const int step = 1 << level;
+  const ColorTarget<1>& shrunk = levels_[level - 1].shrunk;
+  const Image image = read_back(shrunk.framebuffer(), 0, shrunk.width(), shrunk.height(), 3);
+  glm::dvec3 sum(0);
+  PixelRect texels;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const float* light = image.pixel(x, y);
+      if (light[0] + light[1] + light[2] <= 0) continue;
+      sum += glm::dvec3(light[0], light[1], light[2]);
+      texels = unite(texels, {(x - GLARE_MARGIN) * step + GLARE_MARGIN, (y - GLARE_MARGIN) * step + GLARE_MARGIN, step, step});
+    }
+  }
+  return {step * step * std::max({sum.r, sum.g, sum.b}), texels};
 }
 
 void BloomPass::add(const GlTexture& excess, float strength, const ColorTarget<1>& scratch, const ColorTarget<1>& target,

@@ -19,8 +19,11 @@ class BloomPass {
   /// Halves the excess again and again; needed before the two below.
   void shrink(const GlTexture& excess, const PixelRect& texels);
 
-  /// All of the excess: the sum over its texels, the brightest channel's.
-  double total() const;
+  struct Brightness {
+    double total;      ///< sum over the texels of the grid, of the channel that has most
+    PixelRect texels;  ///< of the grid, around all that are not black
+  };
+  Brightness brightness() const;
 
   /// Adds `strength` times the bloom to `target`, of the grid's size, over `texels`.
   void add(const GlTexture& excess, float strength, const ColorTarget<1>& scratch, const ColorTarget<1>& target,

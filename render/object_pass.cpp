@@ -75,6 +75,7 @@ void ObjectPass::upload_materials(const Mesh& mesh) {
     const float f90 = std::clamp(50.0f * material.dielectric_f0, 0.0f, 1.0f);
     materials.push_back(
         {{material.base_color, material.metallic}, {material.emissive, material.roughness}, {material.dielectric_f0, f90, 0, 0}});
+    emits_ = emits_ || material.emissive != glm::vec3(0);
     reflects_ = reflects_ || material.metallic > 0 || material.dielectric_f0 > 0;
   }
   materials_ = make_buffer("materials", std::span<const shader_interface::SurfaceMaterial>(materials));

@@ -29,6 +29,8 @@ class ObjectPass {
 
   /// Some material mirrors anything.
   bool reflects() const { return reflects_; }
+  /// Some material emits light.
+  bool emits() const { return emits_; }
 
   /// Into `target`, of which `rect` (pixels of a frame of that size) is drawn. Needs the ViewUniforms bound, and where their
   /// options say so the receiver (ReceiverPass::bind) and the plate's light; always the lights (ShadowedLights::bind).
@@ -52,7 +54,7 @@ class ObjectPass {
   GlVertexArray vertex_array_;
   GlTexture probe_, rest_, brdf_table_;
   std::vector<Batch> batches_;
-  bool reflects_ = false;
+  bool reflects_ = false, emits_ = false;
 };
 
 }  // namespace catchlight::render

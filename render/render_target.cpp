@@ -10,14 +10,16 @@ constexpr GLenum kColorFormat = GL_RGBA32F;
 
 }  // namespace
 
-ObjectTarget::ObjectTarget(int width, int height, int samples, bool with_layers)
+ObjectTarget::ObjectTarget(int width, int height, int samples, bool with_layers, bool with_emission)
     : width_(width),
       height_(height),
       with_layers_(with_layers),
+      with_emission_(with_emission),
       multisampled_(make_framebuffer("object samples")),
       resolved_(make_framebuffer("object")) {
-  GLenum drawn[kLayers];
-  for (int i = 0; i < attachments(); ++i) {
+  GLenum drawn[kLayers] = {GL_NONE, GL_NONE, GL_NONE, GL_NONE};
+  for (int i = 0; i < kLayers; ++i) {
+    if (!has(i)) continue;
     drawn[i] = static_cast<GLenum>(GL_COLOR_ATTACHMENT0 + i);
     multisampled_colors_[i] = make_renderbuffer("object samples", kColorFormat, width, height, samples);
     resolved_textures_[i] = make_texture_2d("object", kColorFormat, width, height);
@@ -26,7 +28,7 @@ ObjectTarget::ObjectTarget(int width, int height, int samples, bool with_layers)
   }
   depth_ = make_renderbuffer("object depth", GL_DEPTH_COMPONENT32F, width, height, samples);
   glNamedFramebufferRenderbuffer(multisampled_.id(), GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.id());
-  glNamedFramebufferDrawBuffers(multisampled_.id(), attachments(), drawn);
+  glNamedFramebufferDrawBuffers(multisampled_.id(), kLayers, drawn);
   if (glCheckNamedFramebufferStatus(multisampled_.id(), GL_DRAW_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
     throw Error("this OpenGL cannot draw to float buffers with " + std::to_string(samples) + " samples a pixel; ask for fewer");
   }
@@ -34,7 +36,8 @@ ObjectTarget::ObjectTarget(int width, int height, int samples, bool with_layers)
 
 void ObjectTarget::resolve(int width, int height) const {
   glDisable(GL_SCISSOR_TEST);
-  for (int i = 0; i < attachments(); ++i) {
+  for (int i = 0; i < kLayers; ++i) {
+    if (!has(i)) continue;
     const auto attachment = static_cast<GLenum>(GL_COLOR_ATTACHMENT0 + i);
     glNamedFramebufferReadBuffer(multisampled_.id(), attachment);
     glNamedFramebufferDrawBuffer(resolved_.id(), attachment);

@@ -11,8 +11,8 @@ namespace catchlight::render {
 /// Multisampled object colour with depth, and what they resolve to.
 class ObjectTarget {
  public:
-  /// `with_layers` adds reflection, and normal with depth.
-  ObjectTarget(int width, int height, int samples, bool with_layers);
+  /// `with_layers` adds reflection, and normal with depth; `with_emission` the light of the object's own.
+  ObjectTarget(int width, int height, int samples, bool with_layers, bool with_emission);
 
   bool fits(int width, int height, bool with_layers) const {
     return width <= width_ && height <= height_ && (with_layers_ || !with_layers);
@@ -30,13 +30,14 @@ class ObjectTarget {
   const GlTexture& color() const { return resolved_textures_[0]; }
   const GlTexture& reflection() const { return resolved_textures_[1]; }
   const GlTexture& normal_depth() const { return resolved_textures_[2]; }
+  const GlTexture& emission() const { return resolved_textures_[3]; }
 
  private:
-  static constexpr int kLayers = 3;
-  int attachments() const { return with_layers_ ? kLayers : 1; }
+  static constexpr int kLayers = 4;
+  bool has(int layer) const { return layer == 0 || (layer == 3 ? with_emission_ : with_layers_); }
 
   int width_, height_;
-  bool with_layers_;
+  bool with_layers_, with_emission_;
   GlFramebuffer multisampled_, resolved_;
   GlRenderbuffer multisampled_colors_[kLayers], depth_;
   GlTexture resolved_textures_[kLayers];

@@ -12,9 +12,9 @@ void main() {
   ivec2 here = ivec2(gl_FragCoord.xy), last = textureSize(source, 0) - 1;
   vec3 sum = taps[0] * texelFetch(source, here, 0).rgb;
   for (int d = 1; d < count; ++d) {
-    ivec2 before = here - d * axis, after = here + d * axis;
-    if (all(greaterThanEqual(before, ivec2(0)))) sum += taps[d] * texelFetch(source, before, 0).rgb;
-    if (all(lessThanEqual(after, last))) sum += taps[d] * texelFetch(source, after, 0).rgb;
+    // What is blurred ends in the margin: beyond it there is as little as on its last texels.
+    ivec2 before = max(here - d * axis, ivec2(0)), after = min(here + d * axis, last);
+    sum += taps[d] * (texelFetch(source, before, 0).rgb + texelFetch(source, after, 0).rgb);
   }
   result = vec4(sum, 1.0);
 }

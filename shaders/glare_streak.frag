@@ -9,11 +9,12 @@ layout(location = 1 + MAX_STREAK_TAPS) uniform vec3 weights[MAX_STREAK_TAPS];
 layout(location = 0) out vec4 result;
 
 void main() {
-  ivec2 size = textureSize(source, 0);
+  ivec2 last = textureSize(source, 0) - 1;
   vec3 sum = vec3(0.0);
   for (int t = 0; t < count; ++t) {
-    ivec2 texel = ivec2(gl_FragCoord.xy) - offsets[t];
-    if (all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, size))) sum += weights[t] * texelFetch(source, texel, 0).rgb;
+    ivec2 texel = ivec2(gl_FragCoord.xy) - offsets[t], inside = clamp(texel, ivec2(0), last);
+    // No branch: they cost more than the reads that they would save.
+    sum += float(texel == inside) * weights[t] * texelFetch(source, inside, 0).rgb;
   }
   result = vec4(sum, 1.0);
 }

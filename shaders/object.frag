@@ -17,6 +17,7 @@ layout(location = 0) uniform int material_index;
 layout(location = 0) out vec4 object_color;
 layout(location = 1) out vec4 reflection_color;
 layout(location = 2) out vec4 normal_depth;  // camera frame; metres along z
+layout(location = 3) out vec4 emission_color;
 
 vec3 shading_normal(vec3 to_viewer) {
   vec3 n = surface.normal_tag / max(length(surface.normal_tag), 1e-20);
@@ -60,5 +61,6 @@ void main() {
 
   object_color = vec4(exposed(radiance), 1.0);
   reflection_color = vec4(exposed(reflected), 1.0);
+  emission_color = vec4(exposed(m.emissive_roughness.rgb), 1.0);
   normal_depth = vec4(mat3(view.camera_from_tag) * n, (view.camera_from_tag * vec4(surface.position_tag_m, 1.0)).z);
 }

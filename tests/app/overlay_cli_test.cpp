@@ -124,7 +124,8 @@ TEST_F(OverlayCommand, ReportAndTrackSayWhatWasDone) {
   ASSERT_EQ(result.exit_code, 0) << result.error;
   const std::string report = read_text(folder_.path("report.json"));
   for (const char* part :
-       {"\"frames\": 2", "\"tracked_frames\": 2", "\"decode\"", "\"track\"", "\"object\"", "\"encode\"", "median_ms", "renderer"})
+       {"\"frames\": 2", "\"tracked_frames\": 2", "\"decode\"", "\"track\"", "\"object\"", "\"encode\"", "median_ms", "renderer",
+        "\"choice\": \"glare\"", "of 2 frames"})
     EXPECT_THAT(report, HasSubstr(part));
   EXPECT_THAT(read_text(folder_.path("track.csv")), HasSubstr("frame,time_s,found,r00"));
 }

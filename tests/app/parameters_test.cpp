@@ -144,6 +144,16 @@ TEST(ParameterFromText, FilesAreRelativeToTheWorkingFolder) {
   EXPECT_EQ(settings.resolve(settings.probe.image), (std::filesystem::current_path() / "light.exr").string());
 }
 
+TEST(ParameterFromText, AnApertureIsDrawnByTheProgramOrAFile) {
+  SceneSettings settings;
+  for (const char* name : {"blades:6", "dust", ""}) {
+    set_parameter_from_text(settings, "glare.aperture", name);
+    EXPECT_EQ(settings.glare.aperture, name);
+  }
+  set_parameter_from_text(settings, "glare.aperture", "mine.png");
+  EXPECT_EQ(settings.glare.aperture, (std::filesystem::current_path() / "mine.png").string());
+}
+
 TEST(ParameterFromText, ObjectKeysMakeTheFirstObjectAndRefuseToChooseAmongSeveral) {
   SceneSettings settings;
   set_parameter_from_text(settings, "object.mesh", "/a.glb");

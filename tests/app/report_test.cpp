@@ -18,6 +18,8 @@ Report example() {
   report.coasting_frames = 2;
   report.lost_frames = 1;
   report.fps = 4.25;
+  report.glare_frames = 12;
+  report.glare_share = 0.25;
   report.renderer = "llvmpipe";
   report.plan = {{"bands", "6", "default"}, {"rays", "256", "for a tolerance of 0.02"}};
   report.warnings = {"probe.exr: 3 texels are negative"};
@@ -63,6 +65,8 @@ TEST(ReportJson, HasWhatTheDocumentationPromises) {
   EXPECT_EQ(json.at("tracked_frames"), 33);
   EXPECT_EQ(json.at("coasting_frames"), 2);
   EXPECT_EQ(json.at("lost_frames"), 1);
+  EXPECT_EQ(json.at("glare").at("frames"), 12);
+  EXPECT_EQ(json.at("glare").at("share"), 0.25);
   EXPECT_EQ(json.at("fps"), 4.25);
   EXPECT_EQ(json.at("renderer"), "llvmpipe");
   EXPECT_EQ(json.at("stages").at("track").at("median_ms"), 50);

@@ -70,9 +70,9 @@ TEST_F(ApertureGlareGl, ChangesOnlyTheFramesPixelsThatItReaches) {
     }
 }
 
-TEST_F(ApertureGlareGl, NeedsAnAperture) {
+TEST_F(ApertureGlareGl, RefusesAnApertureThatIsNotThereOnlyWhereItGlares) {
   CompositorSettings settings = with_blades();
-  settings.glare.aperture.clear();
+  settings.glare.aperture = "no such file.png";
   EXPECT_THROW(Compositor(lamp(1), settings), Error);
   settings.glare.enabled = false;
   EXPECT_NO_THROW(Compositor(lamp(1), settings));

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "render/glare_kernel.hpp"
+
 namespace catchlight::render {
 namespace {
 
@@ -130,8 +132,19 @@ TEST(FftGlare, FollowsAChangeOfTheCamera) {
   EXPECT_EQ(glare.spread(excess, kCamera).data, wide.data);
 }
 
-TEST(FftGlare, SaysThatItNeedsAnAperture) {
-  EXPECT_THROW(FftGlare(of_aperture("")), Error);
+TEST(FftGlare, WithoutAnApertureItIsTheKernelOfTheFastPasses) {
+  GlareSettings settings = of_aperture("");
+  Image excess(kWidth, kHeight);
+  excess.pixel(80, 60)[1] = 1000;
+  const Image glare = FftGlare(settings).spread(excess, kCamera), kernel = glare_kernel(settings, kHeight, 41, 41);
+  for (int y = 0; y < 41; ++y)
+    for (int x = 0; x < 41; ++x) {
+      const float expected = 1000 * kernel.pixel(x, y)[1];
+      ASSERT_NEAR(glare.pixel(60 + x, 40 + y)[1], expected, 1e-4 + 1e-3 * expected) << x << ' ' << y;
+    }
+}
+
+TEST(FftGlare, SaysWhichApertureItCannotUse) {
   EXPECT_THROW(FftGlare(of_aperture("no such file.png")), Error);
 }
 

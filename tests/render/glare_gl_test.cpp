@@ -74,8 +74,8 @@ TEST_F(GlareGl, GlareReachesBeyondTheObjectAndKeepsItsColour) {
 }
 
 TEST_F(GlareGl, EnergyIsTheExcessTimesTheStrength) {
-  // 100 pixels of 100: the excess over the threshold, less half the knee, is 98.75 each.
-  constexpr double kExcess = 100 * (100 - 1 - 0.25);
+  // 100 pixels of 100, compressed by 100 / brightest at most.
+  constexpr double kExcess = 100 * 100;
   EXPECT_NEAR(energy(glare_layer(lamp(0.01, 100), only(0.08, 0), wide_view())) / (0.08 * kExcess), 1.0, 0.01);
   for (const int directions : {1, 2, 4, 6}) {
     EXPECT_NEAR(energy(glare_layer(lamp(0.01, 100), only(0, 0.06, directions, 45), wide_view())) / (0.06 * kExcess), 1.0, 0.01)
@@ -96,7 +96,7 @@ TEST_F(GlareGl, EnergyStaysWhileAHighlightMovesWithinAPixel) {
     low = std::min(low, ratio);
     high = std::max(high, ratio);
   }
-  EXPECT_LT(high / low, 1.02);
+  EXPECT_LT(high / low, 1.005);
 }
 
 TEST_F(GlareGl, StreakFollowsItsClosedForm) {
@@ -131,24 +131,10 @@ TEST_F(GlareGl, TheSameSceneGlaresAlikeAtTwiceTheResolution) {
   for (const int d : {20, 40, 60}) {
     double a = 0, b = 0;
     for (int i = -8; i <= 8; ++i) a += small.pixel(320 + d + i, 240 + d - i)[0];
-    for (int i = -16; i <= 16; ++i) b += large.pixel(640 + 2 * d + i, 480 + 2 * d - i)[0] / 2;
-    EXPECT_NEAR(b / a, 1.0, 0.08) << d;
-  }
-}
-
-TEST_F(GlareGl, PlansForEverySizeAndSettingAreSane) {
-  for (const int rows : {1, 48, 120, 480, 1080, 2160, 8640}) {
-    for (const double a : {0.0, 0.5, 0.92, 0.999, 1.0}) {
-      GlareSettings settings;
-      settings.streak_attenuation = a;
-      const GlarePlan plan = plan_glare(settings, rows);
-      EXPECT_GE(plan.bloom_levels, 2);
-      EXPECT_LT(plan.streak_level, plan.bloom_levels);
-      EXPECT_GE(plan.streak_passes, 1);
-      EXPECT_LE(plan.streak_passes, 6);
-      EXPECT_GT(plan.reach_px, 0);
-      EXPECT_LT(plan.streak_attenuation, 1.0);
+    for (int i = -8; i <= 8; ++i) {
+      for (int k = 0; k < 4; ++k) b += large.pixel(2 * (320 + d + i) + k % 2, 2 * (240 + d - i) + k / 2)[0] / 4;
     }
+    EXPECT_NEAR(b / a, 1.0, 0.01) << d;
   }
 }
 
