@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "app/commands.hpp"
+#include "app/look.hpp"
 #include "app/output_file.hpp"
 #include "app/overlay.hpp"
 #include "app/track_export/track_export.hpp"
@@ -23,9 +24,11 @@ std::unique_ptr<FrameTrack> open_track(const Options& options, const Recording& 
                                        bool is_live, const FrameRange& range, Context& context, Report& report) {
   if (!options.track_in.empty()) return make_recorded_track(read_track_file(options.track_in), camera, recording.scene);
   if (options.causal || is_live) return make_tag_track(camera, recording.scene);
+  // Adapting exposure needs the poses of all that comes before, too.
+  const FrameRange posed = tone_settings(recording.scene).enabled ? FrameRange{.end = range.end} : range;
   Report tracking;
   const OverlayResult solved =
-      solve_track(*MediaSource::open(recording.footage), camera, recording.scene, range, context.log, tracking);
+      solve_track(*MediaSource::open(recording.footage), camera, recording.scene, posed, context.log, tracking);
   report.stages = tracking.stages;
   return make_recorded_track(solved.rows, camera, recording.scene);
 }

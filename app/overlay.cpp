@@ -6,8 +6,10 @@
 
 #include "app/debug_drawing.hpp"
 #include "app/exposure.hpp"
+#include "app/look.hpp"
 #include "app/progress.hpp"
 #include "render/aperture_picture.hpp"
+#include "render/tone_adaptation.hpp"
 
 namespace catchlight::app {
 
@@ -33,13 +35,63 @@ render::FrameView frame_view(const CameraModel& camera, const SceneSettings& sce
   render::FrameView view;
   view.camera = camera;
   if (scene.lens.distortion == Switch::off) view.camera.distortion = {};
+  view.color = frame.color();
+  view.has_pose = row.found;
+  if (!row.found) return view;
   view.camera_from_tag = row.camera_from_tag;
   view.exposure = exposure_gain(scene.exposure, row.exposure, tag_irradiance_over_pi(built, row.camera_from_tag));
-  view.black = scene.exposure.mode == "match" ? row.black : glm::dvec3(0.0);
-  view.color = frame.color();
+  view.black = scene.exposure.mode == "fixed" ? glm::dvec3(0.0) : row.black;
   view.tag_from_light = tag_from_light(built, row.camera_from_tag);
   return view;
 }
+
+/// Draws frame after frame. Exposure "auto" adapts to what it has seen: it must see every frame of the footage, in order.
+class FrameDrawing {
+ public:
+  FrameDrawing(Stage& stage, const SceneSettings& scene, const CameraModel& camera, bool want_layers)
+      : stage_(stage),
+        scene_(scene),
+        camera_(camera),
+        want_layers_(want_layers),
+        adaptation_(scene.exposure.adapt_bright_s, scene.exposure.adapt_dark_s) {}
+
+  render::Composite draw(const Frame& frame, const TrackRow& row) {
+    pass_times_.clear();
+    if (!row.found && !(recodes_every_frame(scene_) && !want_layers_)) return {};
+    const render::FrameView view = view_of(frame, row);
+    render::Composite composite = stage_.compositor->render(view, reader(frame), want_layers_);
+    pass_times_ = stage_.compositor->pass_times();
+    if (adapts()) adaptation_.see(frame.time_s(), composite.tone_wanted);
+    return composite;
+  }
+
+  /// Of a frame that is not written.
+  void pass_over(const Frame& frame, const TrackRow& row) {
+    if (adapts()) adaptation_.see(frame.time_s(), stage_.compositor->meter(view_of(frame, row), reader(frame)));
+  }
+
+  /// Of the last draw(); empty where nothing was drawn.
+  const std::vector<render::PassTime>& pass_times() const { return pass_times_; }
+
+ private:
+  static render::PlateReader reader(const Frame& frame) {
+    return [&frame](const PixelRect& rect) { return frame.rgb(rect); };
+  }
+  bool adapts() const { return tone_settings(scene_).enabled && !want_layers_; }
+
+  render::FrameView view_of(const Frame& frame, const TrackRow& row) const {
+    render::FrameView view = frame_view(camera_, scene_, stage_.built, row, frame);
+    view.tone = adapts() ? adaptation_.at(frame.time_s()) : std::nullopt;
+    return view;
+  }
+
+  Stage& stage_;
+  const SceneSettings& scene_;
+  CameraModel camera_;
+  bool want_layers_;
+  render::ToneAdaptation adaptation_;
+  std::vector<render::PassTime> pass_times_;
+};
 
 void count(const TrackRow& row, Report& report) {
   ++report.frames;
@@ -86,16 +138,16 @@ std::optional<std::string> read_frames(MediaSource& source, const FrameRange& ra
   return std::nullopt;
 }
 
-/// Decodes and tracks from the first frame to the range's end, and hands on what is in the range.
-template <class PerFrame>
+/// Decodes and tracks from the first frame to the range's end, and hands on what is in the range, and what comes before it.
+template <class PerFrame, class PerEarlierFrame>
 OverlayResult run(MediaSource& source, FrameTrack& track, const FrameRange& range, const char* task, Log& log, Report& report,
-                  PerFrame per_frame) {
+                  PerFrame per_frame, PerEarlierFrame per_earlier_frame) {
   OverlayResult result;
   const auto start = std::chrono::steady_clock::now();
   result.damage = read_frames(source, range, task, log, report.stages, [&](const Frame& frame) {
     const TrackRow row =
         track.is_tracking() ? report.stages.measure("track", [&] { return track.row(frame); }) : track.row(frame);
-    if (!range.contains(frame.number())) return;
+    if (!range.contains(frame.number())) return per_earlier_frame(frame, row);
     per_frame(frame, row);
     count(row, report);
     result.rows.push_back(row);
@@ -161,6 +213,8 @@ Stage build_stage(const SceneSettings& scene, Log& log, Report& report) {
   settings.glare = scene.glare;
   if (!render::is_drawn_aperture(scene.glare.aperture) && !scene.glare.aperture.empty())
     settings.glare.aperture = scene.resolve(scene.glare.aperture);
+  settings.look = compositor_look(scene);
+  settings.tone = tone_settings(scene);
   settings.samples = scene.quality.samples;
   settings.reflection_rays = scene.quality.reflection_rays;
   stage.compositor = std::make_unique<render::Compositor>(stage.built.scene, settings);
@@ -169,19 +223,19 @@ Stage build_stage(const SceneSettings& scene, Log& log, Report& report) {
 
 OverlayResult run_overlay(MediaSource& source, FrameTrack& track, Stage& stage, const SceneSettings& scene,
                           const CameraModel& camera, FrameOutput& output, const FrameRange& range, Log& log, Report& report) {
-  const OverlayResult result = run(source, track, range, "overlay", log, report, [&](const Frame& frame, const TrackRow& row) {
-    if (!output.wants_frame(frame.number())) return;
-    render::Composite composite;
-    if (row.found) {
-      const render::FrameView view = frame_view(camera, scene, stage.built, row, frame);
-      composite = stage.compositor->render(
-          view, [&](const PixelRect& rect) { return frame.rgb(rect); }, output.wants_layers());
-      count_glare(composite, camera, report);
-      for (const render::PassTime& pass : stage.compositor->pass_times()) report.stages.add(pass.name, pass.ms);
-    }
+  FrameDrawing drawing(stage, scene, camera, output.wants_layers());
+  if (output.wants_layers() && recodes_every_frame(scene))
+    log.warn("layers hold the scene's light: neither exposure.mode \"auto\" nor the classic look is in them");
+  const auto pass_over = [&](const Frame& frame, const TrackRow& row) { drawing.pass_over(frame, row); };
+  const auto per_frame = [&](const Frame& frame, const TrackRow& row) {
+    if (!output.wants_frame(frame.number())) return pass_over(frame, row);
+    render::Composite composite = drawing.draw(frame, row);
+    count_glare(composite, camera, report);
+    for (const render::PassTime& pass : drawing.pass_times()) report.stages.add(pass.name, pass.ms);
     if (stage.draws_debug) draw_debug(frame, row, camera, scene.tag.size_m, composite);
     report.stages.measure("encode", [&] { output.write(frame, composite); });
-  });
+  };
+  const OverlayResult result = run(source, track, range, "overlay", log, report, per_frame, pass_over);
   if (report.frames == 0)
     throw Error("no frame of the footage lies in --frames; it has " + std::to_string(source.info().frame_count.value_or(0)) +
                 " from " + std::to_string(source.info().first_number));
@@ -192,7 +246,8 @@ OverlayResult run_overlay(MediaSource& source, FrameTrack& track, Stage& stage, 
 }
 
 OverlayResult run_track(MediaSource& source, FrameTrack& track, const FrameRange& range, Log& log, Report& report) {
-  return run(source, track, range, "track", log, report, [](const Frame&, const TrackRow&) {});
+  const auto nothing_more = [](const Frame&, const TrackRow&) {};
+  return run(source, track, range, "track", log, report, nothing_more, nothing_more);
 }
 
 OverlayResult solve_track(MediaSource& source, const CameraModel& camera, const SceneSettings& scene, const FrameRange& range,

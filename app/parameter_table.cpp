@@ -17,6 +17,11 @@ std::vector<std::string> same_or_family() {
 
 std::vector<Parameter> make_table() {
   return {
+      {"look", "",
+       "\"camera\": as the footage's camera would show it; \"classic\": exposure, bloom and star of the first real-time HDR "
+       "pictures, which sets `exposure` and `glare` where they are left out.",
+       ChoiceKind{[](Scene& s) -> std::string& { return s.look; }, {"camera", "classic"}}},
+
       {"tag.family", "", "Family of the printed tag.",
        ChoiceKind{[](Scene& s) -> std::string& { return s.tag.family; }, tracking::tag_families()}},
       {"tag.id", "", "Number of the tag within its family.",
@@ -73,10 +78,17 @@ std::vector<Parameter> make_table() {
       {"probe.ev", "EV", "Brightens the probe.", RealKind{[](Scene& s) -> double& { return s.probe.ev; }, -30, 30}},
 
       {"exposure.mode", "",
-       "\"match\" follows the footage by the tag's own white and black; \"fixed\" takes radiance as exposed.",
-       ChoiceKind{[](Scene& s) -> std::string& { return s.exposure.mode; }, {"match", "fixed"}}},
+       "\"match\" follows the footage by the tag's own white and black; \"fixed\" takes radiance as exposed; \"auto\" matches, "
+       "then exposes the whole picture anew as an adapting eye does.",
+       ChoiceKind{[](Scene& s) -> std::string& { return s.exposure.mode; }, {"match", "fixed", "auto"}}},
       {"exposure.ev", "EV", "Brightens the virtual layer on top of that.",
        RealKind{[](Scene& s) -> double& { return s.exposure.ev; }, -30, 30}},
+      {"exposure.key", "", "Of \"auto\": the exposed value that the picture's log-average becomes.",
+       RealKind{[](Scene& s) -> double& { return s.exposure.key; }, 0.01, 2}},
+      {"exposure.adapt_bright_s", "s", "Of \"auto\": time constant of adapting to bright light; 0: with the next frame.",
+       RealKind{[](Scene& s) -> double& { return s.exposure.adapt_bright_s; }, 0, 600}},
+      {"exposure.adapt_dark_s", "s", "Of \"auto\": time constant of adapting to the dark.",
+       RealKind{[](Scene& s) -> double& { return s.exposure.adapt_dark_s; }, 0, 600}},
 
       {"glare.enabled", "", "Whether what exceeds the sensor's white spills as bloom and streaks.",
        FlagKind{[](Scene& s) -> bool& { return s.glare.enabled; }}},

@@ -25,6 +25,11 @@ std::string section_of(const Parameter& parameter) {
   return parameter.key.substr(0, parameter.key.find('.'));
 }
 
+/// Before the first section: keys that stand in none.
+bool is_in_section(const Parameter& parameter) {
+  return parameter.key.find('.') != std::string::npos;
+}
+
 /// As it would stand in the scene file.
 std::string shown_default(const Parameter& parameter) {
   const std::string text = parameter_text(SceneSettings{}, parameter);
@@ -46,11 +51,12 @@ std::string parameters_markdown() {
   for (const Parameter& parameter : parameters()) {
     if (section_of(parameter) != section) {
       section = section_of(parameter);
-      const std::string heading = section == "object" ? "[[object]]" : '[' + section + ']';
-      page += "\n## `" + heading + "`\n\n| key | default | expected | meaning |\n|---|---|---|---|\n";
+      const std::string heading = section == "object" ? "`[[object]]`" : "`[" + section + "]`";
+      page += "\n## " + (is_in_section(parameter) ? heading : "Before the first section") +
+              "\n\n| key | default | expected | meaning |\n|---|---|---|---|\n";
     }
-    page += "| `" + parameter.key.substr(section.size() + 1) + "` | " + shown_default(parameter) + " | " +
-            expected_text(parameter) + " | " + parameter.help + " |\n";
+    page += "| `" + (is_in_section(parameter) ? parameter.key.substr(section.size() + 1) : parameter.key) + "` | " +
+            shown_default(parameter) + " | " + expected_text(parameter) + " | " + parameter.help + " |\n";
   }
   return page;
 }

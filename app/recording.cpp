@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "app/look.hpp"
 #include "app/parameters.hpp"
 #include "app/scene_file.hpp"
 #include "tracking/camera_file.hpp"
@@ -98,6 +99,7 @@ void choose_scene(Recording& recording, const RecordingOverrides& overrides) {
   if (!file) throw Error(recording.footage + ": no scene (" + where_expected(recording, "scene.toml") + "); pass --scene FILE");
   recording.scene = read_scene_file(*file);
   for (const auto& [key, text] : overrides.parameters) set_parameter_from_text(recording.scene, key, text);
+  apply_look(recording.scene);
   recording.scene.probe.strict = overrides.strict;
 }
 

@@ -17,6 +17,8 @@ namespace catchlight::app {
 enum class Switch { automatic, off, on };
 
 struct SceneSettings {
+  std::string look = "camera";  ///< "camera" or "classic"
+
   struct Tag {
     std::string family = "tag36h11";
     int id = 0;
@@ -68,6 +70,8 @@ struct SceneSettings {
   struct Exposure {
     std::string mode = "match";
     double ev = 0;
+    double key = 0.18;                                ///< of "auto", as the next
+    double adapt_bright_s = 0.4, adapt_dark_s = 1.6;  ///< time constants
   } exposure;
 
   render::GlareSettings glare;

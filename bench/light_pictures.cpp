@@ -90,8 +90,10 @@ class Studio {
   /// The whole frame, linear, as if the place had that part of its light alone: the plate is that much darker, and what is
   /// exposed by the tag on it that much brighter, before all of it is put back to the exposure of the whole.
   render::Image frame(const Part& part) {
-    render::CompositorSettings settings{
-        recording_.scene.glare, recording_.scene.quality.samples, recording_.scene.quality.reflection_rays, {}};
+    render::CompositorSettings settings;
+    settings.glare = recording_.scene.glare;
+    settings.samples = recording_.scene.quality.samples;
+    settings.reflection_rays = recording_.scene.quality.reflection_rays;
     stage_.compositor = std::make_unique<render::Compositor>(part.scene, settings);
     stage_.built.still_irradiance_over_pi = on_tag_ * part.share;
     LayersOutput output;
