@@ -12,6 +12,7 @@
 
 #include "catchlight.hpp"
 #include "render/image.hpp"
+#include "render/lens_view.hpp"
 #include "render/light_samples.hpp"
 #include "render/mesh.hpp"
 #include "render/prefilter.hpp"
@@ -77,6 +78,7 @@ struct FrameView {
   glm::vec3 black{0.0f};
   PlateColor color;
   glm::dmat3 tag_from_light{1.0};  ///< turns the light against the tag (probe fixed to the camera)
+  LensView lens;                   ///< what the camera does to the virtual layer besides
 };
 
 /// Layers for compositing packages, whole frame, premultiplied, exposed linear in the plate's primaries. r = plate * shadow * (1

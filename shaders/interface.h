@@ -18,6 +18,7 @@ using glm::vec4;
 #define MAX_LIGHT_COEFFICIENTS 100
 #define MAX_LIGHT_SAMPLES 128
 #define RECEIVER_CELLS 96
+#define LENS_BLUR_TAPS 96
 
 // Uniform blocks
 #define BINDING_VIEW 0
@@ -127,6 +128,12 @@ UNIFORM_BLOCK(CompositeUniforms, BINDING_COMPOSITE) {
   vec4 changed_code;        // x: smallest difference of codes that counts
   vec4 glare;               // bloom and streak strength
   vec4 glare_from_frame;    // texture coordinates of bloom (xy) and streaks (zw) per pixel
+  ivec4 noise;              // added, seed, log2 of the pixels that share a colour (across, down)
+  vec4 noise_slope;         // variance = slope * light + floor
+  vec4 noise_floor;
+  vec4 vignetting;          // v1, v2, v3; w: 1 / the tag's
+  vec4 vignetting_at;       // middle (pixels), 1 / half diagonal squared
+  mat4 noise_mix;           // unit variance of RGB from two numbers a block and one a pixel
 } BLOCK_NAME(composite);
 
 #ifdef __cplusplus
