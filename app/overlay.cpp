@@ -1,10 +1,14 @@
 #include "app/overlay.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <iterator>
 
 #include "app/debug_drawing.hpp"
 #include "app/exposure.hpp"
+#include "app/lens_view.hpp"
+#include "app/media/full_color.hpp"
 #include "app/progress.hpp"
 
 namespace catchlight::app {
@@ -27,7 +31,7 @@ std::optional<std::int64_t> frames_to_read(const SourceInfo& info, const FrameRa
 }
 
 render::FrameView frame_view(const CameraModel& camera, const SceneSettings& scene, const BuiltScene& built, const TrackRow& row,
-                             const Frame& frame) {
+                             const Frame& frame, const glm::dvec3& vignetting) {
   render::FrameView view;
   view.camera = camera;
   if (scene.lens.distortion == Switch::off) view.camera.distortion = {};
@@ -36,6 +40,7 @@ render::FrameView frame_view(const CameraModel& camera, const SceneSettings& sce
   view.black = scene.exposure.mode == "match" ? row.black : glm::dvec3(0.0);
   view.color = frame.color();
   view.tag_from_light = tag_from_light(built, row.camera_from_tag);
+  view.lens = lens_view(scene.lens, row, frame, vignetting);
   return view;
 }
 
@@ -144,22 +149,26 @@ Stage build_stage(const SceneSettings& scene, Log& log, Report& report) {
 
 OverlayResult run_overlay(MediaSource& source, FrameTrack& track, Stage& stage, const SceneSettings& scene,
                           const CameraModel& camera, FrameOutput& output, const FrameRange& range, Log& log, Report& report) {
+  std::optional<Frame> last;
   const OverlayResult result = run(source, track, range, "overlay", log, report, [&](const Frame& frame, const TrackRow& row) {
+    last = frame;
     if (!output.wants_frame(frame.number())) return;
     render::Composite composite;
     if (row.found) {
-      const render::FrameView view = frame_view(camera, scene, stage.built, row, frame);
+      const render::FrameView view = frame_view(camera, scene, stage.built, row, frame, stage.vignetting);
       composite = stage.compositor->render(
           view, [&](const PixelRect& rect) { return frame.rgb(rect); }, output.wants_layers());
       for (const render::PassTime& pass : stage.compositor->pass_times()) report.stages.add(pass.name, pass.ms);
     }
     if (stage.draws_debug) draw_debug(frame, row, camera, scene.tag.size_m, composite);
-    report.stages.measure("encode", [&] { output.write(frame, composite); });
+    const bool full_color = scene.lens.chroma_subsampling == Switch::off;
+    report.stages.measure("encode", [&] { output.write(full_color ? with_full_color(frame) : frame, composite); });
   });
   if (report.frames == 0)
     throw Error("no frame of the footage lies in --frames; it has " + std::to_string(source.info().frame_count.value_or(0)) +
                 " from " + std::to_string(source.info().first_number));
   output.finish();
+  std::ranges::move(lens_plan(scene.lens, result.rows, *last, stage.vignetting), std::back_inserter(report.plan));
   warn_of_lost_frames(report, log);
   return result;
 }
