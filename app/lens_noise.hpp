@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+
 #include "app/lens_model.hpp"
 #include "app/media/code_planes.hpp"
 #include "app/media/frame.hpp"
