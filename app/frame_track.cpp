@@ -3,6 +3,8 @@
 #include <map>
 
 #include "app/exposure.hpp"
+#include "app/lens_blur.hpp"
+#include "app/lens_noise.hpp"
 #include "app/linear_patch.hpp"
 #include "tracking/photometry.hpp"
 #include "tracking/planar_pose.hpp"
@@ -95,7 +97,9 @@ class TagTrack : public FrameTrack {
       : camera_(camera),
         target_(scene.tag.target()),
         tracker_(camera, target_, scene.tag.tracker_options()),
-        exposure_(camera, scene) {}
+        exposure_(camera, scene),
+        noise_(camera, target_),
+        lens_blur_(camera, target_.size_m) {}
 
   TrackRow row(const Frame& frame) override {
     const tracking::TagObservation seen = tracker_.track(frame.luma(), frame.time_s());
@@ -105,6 +109,9 @@ class TagTrack : public FrameTrack {
     row.ambiguity = seen.ambiguity;
     set_appearance(row, seen.appearance);
     exposure_.add_exposure(frame, row);
+    noise_.add(frame, row);
+    row.noise = noise_.model();
+    lens_blur_.add(row);
     return row;
   }
 
@@ -115,6 +122,8 @@ class TagTrack : public FrameTrack {
   tracking::TagTarget target_;
   tracking::Tracker tracker_;
   ExposureTrack exposure_;
+  NoiseMeter noise_;
+  LensBlurMeter lens_blur_;
 };
 
 class RecordedTrack : public FrameTrack {
@@ -162,6 +171,7 @@ struct PathTrack::Impl {
   tracking::TagTarget target;
   tracking::RecordedPath path;
   ExposureTrack exposure;
+  NoiseMeter noise;
   std::vector<TrackRow> rows;
   std::vector<bool> measured;
 };
@@ -169,7 +179,8 @@ struct PathTrack::Impl {
 PathTrack::PathTrack(const CameraModel& camera, const SceneSettings& scene) {
   const tracking::TagTarget target = scene.tag.target();
   impl_ = std::make_unique<Impl>(Impl{
-      camera, target, tracking::RecordedPath(camera, target, scene.tag.tracker_options()), ExposureTrack(camera, scene), {}, {}});
+      camera, target, tracking::RecordedPath(camera, target, scene.tag.tracker_options()), ExposureTrack(camera, scene),
+      NoiseMeter(camera, target), {}, {}});
 }
 
 PathTrack::~PathTrack() = default;
@@ -180,6 +191,7 @@ void PathTrack::add(const Frame& frame) {
   set_pose(row, seen.state, seen.camera_from_tag, impl_->camera, impl_->target);
   set_appearance(row, seen.appearance);
   impl_->measured.push_back(impl_->exposure.add_exposure(frame, row));
+  impl_->noise.add(frame, row);
   impl_->rows.push_back(row);
 }
 
@@ -195,6 +207,9 @@ std::vector<TrackRow> PathTrack::solve() const {
     set_appearance(rows[i], impl_->path.appearances()[i]);
   }
   fill_exposures(rows, impl_->measured);
+  const NoiseModel noise = impl_->noise.model();
+  for (TrackRow& row : rows) row.noise = noise;
+  measure_lens_blur(rows, impl_->camera, impl_->target.size_m);
   return rows;
 }
 

@@ -1,12 +1,16 @@
 #include "app/overlay.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 
 #include "app/debug_drawing.hpp"
 #include "app/exposure.hpp"
+#include "app/lens_view.hpp"
 #include "app/look.hpp"
+#include "app/media/full_color.hpp"
 #include "app/progress.hpp"
 #include "render/aperture_picture.hpp"
 #include "render/tone_adaptation.hpp"
@@ -31,7 +35,7 @@ std::optional<std::int64_t> frames_to_read(const SourceInfo& info, const FrameRa
 }
 
 render::FrameView frame_view(const CameraModel& camera, const SceneSettings& scene, const BuiltScene& built, const TrackRow& row,
-                             const Frame& frame) {
+                             const Frame& frame, const glm::dvec3& vignetting) {
   render::FrameView view;
   view.camera = camera;
   if (scene.lens.distortion == Switch::off) view.camera.distortion = {};
@@ -42,6 +46,7 @@ render::FrameView frame_view(const CameraModel& camera, const SceneSettings& sce
   view.exposure = exposure_gain(scene.exposure, row.exposure, tag_irradiance_over_pi(built, row.camera_from_tag));
   view.black = scene.exposure.mode == "fixed" ? glm::dvec3(0.0) : row.black;
   view.tag_from_light = tag_from_light(built, row.camera_from_tag);
+  view.lens = lens_view(scene.lens, row, frame, vignetting);
   return view;
 }
 
@@ -80,7 +85,7 @@ class FrameDrawing {
   bool adapts() const { return tone_settings(scene_).enabled && !want_layers_; }
 
   render::FrameView view_of(const Frame& frame, const TrackRow& row) const {
-    render::FrameView view = frame_view(camera_, scene_, stage_.built, row, frame);
+    render::FrameView view = frame_view(camera_, scene_, stage_.built, row, frame, stage_.vignetting);
     view.tone = adapts() ? adaptation_.at(frame.time_s()) : std::nullopt;
     return view;
   }
@@ -223,17 +228,20 @@ Stage build_stage(const SceneSettings& scene, Log& log, Report& report) {
 
 OverlayResult run_overlay(MediaSource& source, FrameTrack& track, Stage& stage, const SceneSettings& scene,
                           const CameraModel& camera, FrameOutput& output, const FrameRange& range, Log& log, Report& report) {
+  std::optional<Frame> last;
+  const bool full_color = scene.lens.chroma_subsampling == Switch::off;
   FrameDrawing drawing(stage, scene, camera, output.wants_layers());
   if (output.wants_layers() && recodes_every_frame(scene))
     log.warn("layers hold the scene's light: neither exposure.mode \"auto\" nor the classic look is in them");
   const auto pass_over = [&](const Frame& frame, const TrackRow& row) { drawing.pass_over(frame, row); };
   const auto per_frame = [&](const Frame& frame, const TrackRow& row) {
+    last = frame;
     if (!output.wants_frame(frame.number())) return pass_over(frame, row);
     render::Composite composite = drawing.draw(frame, row);
     count_glare(composite, camera, report);
     for (const render::PassTime& pass : drawing.pass_times()) report.stages.add(pass.name, pass.ms);
     if (stage.draws_debug) draw_debug(frame, row, camera, scene.tag.size_m, composite);
-    report.stages.measure("encode", [&] { output.write(frame, composite); });
+    report.stages.measure("encode", [&] { output.write(full_color ? with_full_color(frame) : frame, composite); });
   };
   const OverlayResult result = run(source, track, range, "overlay", log, report, per_frame, pass_over);
   if (report.frames == 0)
@@ -241,6 +249,7 @@ OverlayResult run_overlay(MediaSource& source, FrameTrack& track, Stage& stage, 
                 " from " + std::to_string(source.info().first_number));
   output.finish();
   add_glare_to_plan(scene, report);
+  std::ranges::move(lens_plan(scene.lens, result.rows, *last, stage.vignetting), std::back_inserter(report.plan));
   warn_of_lost_frames(report, log);
   return result;
 }

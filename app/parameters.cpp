@@ -80,7 +80,7 @@ struct Store {
   bool operator()(const SwitchKind& kind) const {
     const auto* text = std::get_if<std::string>(&value);
     const auto* flag = std::get_if<bool>(&value);
-    if (flag ? (*flag && !kind.can_be_on) : !(text && *text == "auto")) return false;
+    if (!flag && !(text && *text == "auto")) return false;
     kind.access(settings) = !flag ? Switch::automatic : *flag ? Switch::on : Switch::off;
     return true;
   }
@@ -200,9 +200,7 @@ std::string expected_text(const Parameter& parameter) {
           [](const FlagKind&) { return std::string("true or false"); }, [](const TextKind&) { return std::string("text"); },
           [](const PathKind&) { return std::string("the name of a file"); },
           [](const ChoiceKind& kind) { return quoted_list(kind.choices); },
-          [](const SwitchKind& kind) {
-            return std::string(kind.can_be_on ? "\"auto\", true or false" : "\"auto\" or false (true is not supported yet)");
-          },
+          [](const SwitchKind&) { return std::string("\"auto\", true or false"); },
           [&](const VectorKind& kind) {
             return range_text("three numbers", number_text(kind.min), number_text(kind.max), unit);
           }},

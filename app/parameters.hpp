@@ -41,7 +41,6 @@ struct ChoiceKind {
 };
 struct SwitchKind {
   Access<Switch> access;
-  bool can_be_on;  ///< false: this version cannot do it, so that "auto" is off and `true` is refused
 };
 struct VectorKind {
   Access<glm::dvec3> access;

@@ -78,7 +78,8 @@ struct SceneSettings {
 
   struct Lens {
     Switch noise = Switch::automatic, motion_blur = Switch::automatic, defocus = Switch::automatic,
-           distortion = Switch::automatic;
+           distortion = Switch::automatic, vignetting = Switch::automatic, chroma_subsampling = Switch::automatic;
+    double shutter = 0;  ///< 0: measured
   } lens;
 
   struct Quality {

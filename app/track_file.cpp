@@ -157,6 +157,14 @@ class Reader {
     row.ambiguity = number_or("ambiguity", 0);
     row.blur_px2 = {number_or("blur_xx_px2", 0), number_or("blur_xy_px2", 0), number_or("blur_yy_px2", 0)};
     row.noise_codes = number_or("noise_codes", 0);
+    row.noise.slope = rgb_or("noise_slope", row.noise.slope);
+    row.noise.floor = rgb_or("noise_floor", row.noise.floor);
+    row.noise.correlation = {number_or("noise_correlation_rg", 0), number_or("noise_correlation_rb", 0),
+                             number_or("noise_correlation_gb", 0)};
+    const auto vector = [&](const std::string& name) {
+      return glm::dvec3(number_or(name + "_x", 0), number_or(name + "_y", 0), number_or(name + "_z", 0));
+    };
+    row.lens_blur = {{vector("turn"), vector("shift")}, number_or("shutter", 0), number_or("focus_px2", 0)};
     return row;
   }
 
@@ -172,7 +180,9 @@ std::string header_text() {
   for (const char* column : kPoseColumns) text += std::string(",") + column;
   return text +
          ",state,exposure_r,exposure_g,exposure_b,black_r,black_g,black_b,corner_sigma_px,ambiguity,"
-         "blur_xx_px2,blur_xy_px2,blur_yy_px2,noise_codes\n";
+         "blur_xx_px2,blur_xy_px2,blur_yy_px2,noise_codes,noise_slope_r,noise_slope_g,noise_slope_b,noise_floor_r,noise_floor_g,"
+         "noise_floor_b,noise_correlation_rg,noise_correlation_rb,noise_correlation_gb,"
+         "turn_x,turn_y,turn_z,shift_x,shift_y,shift_z,shutter,focus_px2\n";
 }
 
 std::string row_text(const TrackRow& row) {
@@ -184,6 +194,10 @@ std::string row_text(const TrackRow& row) {
   const tracking::Covariance2& blur = row.blur_px2;
   for (const double number : {row.corner_sigma_px, row.ambiguity, blur.xx, blur.xy, blur.yy, row.noise_codes})
     text += ',' + number_text(number);
+  const TagMotion& motion = row.lens_blur.motion;
+  for (const glm::dvec3& three : {row.noise.slope, row.noise.floor, row.noise.correlation, motion.turn_rad, motion.shift_m})
+    for (int i = 0; i < 3; ++i) text += ',' + number_text(three[i]);
+  for (const double number : {row.lens_blur.shutter, row.lens_blur.focus_px2}) text += ',' + number_text(number);
   return text + '\n';
 }
 

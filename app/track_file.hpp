@@ -1,6 +1,7 @@
 // The track file: the whole interface between tracking and rendering. CSV, one row a frame, the first line names the columns:
 //   frame,time_s,found,r00,r01,r02,r10,...,r22,tx,ty,tz,state,exposure_r,...,black_b,corner_sigma_px,ambiguity,
-//   blur_xx_px2,blur_xy_px2,blur_yy_px2,noise_codes
+//   blur_xx_px2,blur_xy_px2,blur_yy_px2,noise_codes,noise_slope_r,...,noise_floor_b,noise_correlation_rg,_rb,_gb,
+//   turn_x,turn_y,turn_z,shift_x,shift_y,shift_z,shutter,focus_px2
 // r_ij is row i, column j of camera_from_tag's rotation; t is in metres. Lost frames (found 0) have empty pose cells.
 #pragma once
 
@@ -9,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "app/lens_model.hpp"
 #include "catchlight.hpp"
 #include "tracking/tracker.hpp"
 
@@ -27,6 +29,8 @@ struct TrackRow {
   double ambiguity = 0;            ///< probability that the other planar pose is the right one
   tracking::Covariance2 blur_px2;  ///< of the tag's edges, by lens, motion and pixel; 0: not measured
   double noise_codes = 0;          ///< on the tag, in 8-bit codes; 0: not measured
+  NoiseModel noise;                ///< of the whole footage, where it was recorded; all 0: not measured
+  LensBlurModel lens_blur;         ///< the last parts of blur_px2, taken apart
 };
 
 /// As the files say it: "tracking", "coasting", "lost".

@@ -1,7 +1,9 @@
 #include "render/composite_pass.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "render/lens.hpp"
 #include "render/read_back.hpp"
 #include "render/shader.hpp"
 
@@ -43,6 +45,26 @@ int mode_of(TransferFunction transfer) {
       return TRANSFER_HLG;
   }
   throw Error("unknown transfer function");
+}
+
+/// As CompositeUniforms has it.
+struct Vignetting {
+  glm::vec4 terms{0, 0, 0, 1}, at{0};
+};
+
+Vignetting vignetting_of(const FrameView& view) {
+  const glm::dvec3& v = view.lens.vignetting;
+  Vignetting result;
+  if (v == glm::dvec3(0.0) || !(view.camera_from_tag.translation_m.z > 0)) return result;
+  const CameraModel& camera = view.camera;
+  const double to_half_diagonal = 4 / (std::pow(camera.width_px, 2) + std::pow(camera.height_px, 2));
+  const glm::dvec3 tag = distorted(camera, lens_limit(camera), view.camera_from_tag.translation_m);
+  const glm::dvec2 off = glm::dvec2(camera.fx_px * tag.x, camera.fy_px * tag.y) / tag.z;
+  const double r2 = glm::dot(off, off) * to_half_diagonal, at_tag = 1 + r2 * (v.x + r2 * (v.y + r2 * v.z));
+  if (!(at_tag > 0)) return result;
+  result.terms = glm::vec4(v, 1 / at_tag);
+  result.at = glm::vec4(camera.cx_px, camera.cy_px, to_half_diagonal, 0);
+  return result;
 }
 
 glm::ivec4 as_vector(const PixelRect& rect) {
@@ -89,6 +111,14 @@ void CompositePass::update_uniforms(const FrameView& view, const VirtualLayer& l
   block.modes = {mode_of(view.color.transfer), clips_ ? 1 : 0, layer.pixel_glare ? 2 : layer.glare ? 1 : 0, as_light ? 1 : 0};
   block.black = glm::vec4(view.black, 0);
   block.changed_code.x = changed_code_;
+  const Vignetting vignetting = vignetting_of(view);
+  block.vignetting = vignetting.terms;
+  block.vignetting_at = vignetting.at;
+  const LensNoise& noise = view.lens.noise;
+  block.noise = {noise.enabled ? 1 : 0, static_cast<int>(noise.frame), noise.block_shift.x, noise.block_shift.y};
+  block.noise_slope = glm::vec4(noise.slope, 0);
+  block.noise_floor = glm::vec4(noise.floor, 0);
+  block.noise_mix = glm::mat4(noise.mix);
   if (layer.glare && !layer.pixel_glare) block.glare_from_frame = layer.glare->texels_from_frame();
   uniforms_.update(block);
   uniforms_.bind(BINDING_COMPOSITE);

@@ -9,6 +9,7 @@
 #include "render/gl_context.hpp"
 #include "render/glare.hpp"
 #include "render/lens.hpp"
+#include "render/lens_blur.hpp"
 #include "render/light_transfer.hpp"
 #include "render/object_layers.hpp"
 #include "render/object_pass.hpp"
@@ -77,7 +78,7 @@ struct Compositor::Impl {
   void upload_plate(const PlateReader& plate, const PixelRect& rect);
   void make_targets(const PixelRect& rect, bool want_layers);
   bool divides_glare() const;
-  bool draw_virtual_layer(const FrameView& view, const PixelRect& rect);
+  bool draw_virtual_layer(const FrameView& view, const PixelRect& rect, const LensBlurPlan& blur);
 
   CompositorSettings settings;
   TagLight light_probe;  ///< as the probe's frame has it
@@ -88,6 +89,7 @@ struct Compositor::Impl {
   ShadowedLights lights;
   ObjectPass object;
   std::unique_ptr<ReceiverPass> receiver;
+  LensBlur lens_blur;
   GlarePass glare;
   std::unique_ptr<ApertureGlarePass> aperture_glare;  ///< in its place where settings.glare.method is "fft"
   CompositePass composite;
@@ -96,6 +98,7 @@ struct Compositor::Impl {
   std::optional<glm::dmat3> lit_from;  ///< the light's turn that the points are lit for
   std::unique_ptr<ObjectTarget> object_target;
   std::unique_ptr<ColorTarget<1>> shadow_target;
+  const GlTexture *object_seen = nullptr, *shadow_seen = nullptr;  ///< as the lens shows them
   std::vector<PassTime> times;
 };
 
@@ -108,6 +111,7 @@ Compositor::Impl::Impl(const RenderScene& scene, const CompositorSettings& wante
       lights(static_cast<int>(scene.lights.size()), sphere_around(box), wanted.shader_folder),
       object(scene.mesh, LitPoints("object", scene.transfer.object, scene.transfer.object_direct, sh_count(scene.transfer.bands)),
              scene.reflections, scene.rest_reflections, wanted.shader_folder),
+      lens_blur(wanted.shader_folder),
       glare(wanted.glare, wanted.shader_folder),
       composite(wanted.shader_folder) {
   settings.samples = supported_samples(wanted.samples);
@@ -188,7 +192,7 @@ bool Compositor::Impl::divides_glare() const {
 }
 
 /// Object, shadow and what glares of them. True if anything does.
-bool Compositor::Impl::draw_virtual_layer(const FrameView& view, const PixelRect& rect) {
+bool Compositor::Impl::draw_virtual_layer(const FrameView& view, const PixelRect& rect, const LensBlurPlan& blur) {
   const int width = view.camera.width_px, height = view.camera.height_px;
   {
     const auto pass = clock.pass("object");
@@ -204,11 +208,17 @@ bool Compositor::Impl::draw_virtual_layer(const FrameView& view, const PixelRect
     glClearNamedFramebufferfv(shadow_target->framebuffer(), GL_COLOR, 0, no_shadow);
     if (receiver && inverse(view.camera_from_tag).translation_m.z > 0) receiver->draw(*shadow_target, rect, width, height);
   }
+  object_seen = &object_target->color(), shadow_seen = &shadow_target->texture();
+  if (!blur.empty()) {
+    const auto pass = clock.pass("lens blur");
+    lens_blur.apply(blur, *object_seen, *shadow_seen, rect);
+    object_seen = &lens_blur.object(), shadow_seen = &lens_blur.shadow();
+  }
   if (!settings.glare.enabled) return false;
   const auto pass = clock.pass("highlights");
-  if (aperture_glare) return aperture_glare->extract(object_target->color(), rect, width, height);
+  if (aperture_glare) return aperture_glare->extract(*object_seen, rect, width, height);
   const GlTexture* emission = divides_glare() ? &object_target->emission() : nullptr;
-  return glare.extract(object_target->color(), emission, rect, width, height);
+  return glare.extract(*object_seen, emission, rect, width, height);
 }
 
 void Compositor::Impl::upload_plate(const PlateReader& plate, const PixelRect& rect) {
@@ -239,13 +249,17 @@ Composite Compositor::Impl::render(const FrameView& view, const PlateReader& pla
   const PixelRect whole{0, 0, view.camera.width_px, view.camera.height_px};
   const bool is_toned = tone && !want_layers;
   if (view.has_pose) relight(view.tag_from_light);
-  const PixelRect virtual_rect = view.has_pose ? reach(view) : PixelRect{};
+  PixelRect virtual_rect = view.has_pose ? reach(view) : PixelRect{};
   Composite result;
   if (virtual_rect.empty() && !want_layers && !is_toned) return result;
 
   bool glares = false, has_whole_plate = false;
   PixelRect output_rect = virtual_rect;
   if (!virtual_rect.empty()) {
+    const LensBlurPlan blur = plan_lens_blur(view, box.min_m, box.max_m);
+    const int r = blur.reach_px(virtual_rect);
+    virtual_rect = intersect({virtual_rect.x - r, virtual_rect.y - r, virtual_rect.width + 2 * r, virtual_rect.height + 2 * r}, whole);
+    output_rect = virtual_rect;
     update_view(view);
     if (mirrors_receiver(view)) {
       upload_plate(plate, whole);
@@ -254,7 +268,7 @@ Composite Compositor::Impl::render(const FrameView& view, const PlateReader& pla
       has_whole_plate = true;
     }
     make_targets(virtual_rect, want_layers);
-    glares = draw_virtual_layer(view, virtual_rect);
+    glares = draw_virtual_layer(view, virtual_rect, blur);
     if (glares) {
       const auto pass = clock.pass("glare");
       result.glare_rect = aperture_glare ? aperture_glare->spread(view.camera) : glare.spread();
@@ -267,8 +281,7 @@ Composite Compositor::Impl::render(const FrameView& view, const PlateReader& pla
   {
     const auto pass = clock.pass("composite");
     composite.draw(view, output_rect,
-                   {virtual_rect, object_target ? &object_target->color() : nullptr,
-                    shadow_target ? &shadow_target->texture() : nullptr, glares ? &glare : nullptr,
+                   {virtual_rect, object_seen, shadow_seen, glares ? &glare : nullptr,
                     glares && aperture_glare ? &aperture_glare->glare() : nullptr},
                    want_layers, is_toned);
   }

@@ -12,6 +12,7 @@
 
 #include "catchlight.hpp"
 #include "render/image.hpp"
+#include "render/lens_view.hpp"
 #include "render/light_samples.hpp"
 #include "render/mesh.hpp"
 #include "render/prefilter.hpp"
@@ -95,6 +96,7 @@ struct FrameView {
   glm::dmat3 tag_from_light{1.0};  ///< turns the light against the tag (probe fixed to the camera)
   bool has_pose = true;            ///< false: nothing virtual is drawn; the tone curve, where there is one, is
   std::optional<ToneCurve> tone;   ///< what the exposure has adapted to; none: what the frame itself calls for
+  LensView lens;                   ///< what the camera does to the virtual layer besides
 };
 
 /// Layers for compositing packages, whole frame, premultiplied, exposed linear in the plate's primaries. r = plate * shadow * (1

@@ -3,6 +3,7 @@
 #include "interface.h"
 #include "bspline.glsl"
 #include "color.glsl"
+#include "lens_noise.glsl"
 
 layout(binding = TEXTURE_OBJECT) uniform sampler2D object;    // premultiplied exposed linear
 layout(binding = TEXTURE_SHADOW) uniform sampler2D shadow;    // ratio
@@ -25,12 +26,21 @@ vec3 glare_at(ivec2 pixel) {
   return max(bspline(glare_grid, (vec2(pixel) + 0.5) * composite.glare_from_frame.xy + composite.glare_from_frame.zw), 0.0);
 }
 
+// Of the light at the tag, how much reaches this place of the sensor.
+float vignetting_at(ivec2 pixel) {
+  vec2 off = vec2(pixel) - composite.vignetting_at.xy;
+  float r2 = dot(off, off) * composite.vignetting_at.z;
+  vec3 v = composite.vignetting.xyz;
+  return max(1.0 + r2 * (v.x + r2 * (v.y + r2 * v.z)), 0.0) * composite.vignetting.w;
+}
+
 void main() {
   ivec2 local = ivec2(gl_FragCoord.xy), pixel = local + composite.output_rect.xy;
   ivec2 in_virtual = pixel - composite.virtual_rect.xy;
   bool reached = all(greaterThanEqual(in_virtual, ivec2(0))) && all(lessThan(in_virtual, composite.virtual_rect.zw));
   vec4 over = reached ? texelFetch(object, in_virtual, 0) : vec4(0.0);
   vec3 ratio = reached ? texelFetch(shadow, in_virtual, 0).rgb : vec3(1.0);
+  over.rgb *= vignetting_at(pixel);
   vec3 glare = glare_at(pixel);
   vec3 code = texelFetch(plate, pixel - composite.plate_rect.xy, 0).rgb;
 
@@ -43,6 +53,7 @@ void main() {
   vec3 light = shadowed * (1.0 - over.a) + over.rgb + glare;
 
   bool untouched = over.a == 0.0 && ratio == vec3(1.0) && glare == vec3(0.0);
+  if (composite.noise.x != 0 && !untouched) light += missing_noise(pixel, light, background, (1.0 - over.a) * ratio);
   vec3 new_code = untouched ? code : code_from_linear(transfer, light);
   if (composite.modes.y != 0) new_code = clamp(new_code, 0.0, 1.0);
   // A NaN in the plate compares as changed once something virtual covers it.

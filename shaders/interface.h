@@ -21,6 +21,7 @@ using glm::vec4;
 #define GLARE_MARGIN 4  // texels around the glare grid and its halvings
 #define MAX_GLARE_BLUR_TAPS 16
 #define MAX_STREAK_TAPS 16
+#define LENS_BLUR_TAPS 96
 
 // Uniform blocks
 #define BINDING_VIEW 0
@@ -132,6 +133,12 @@ UNIFORM_BLOCK(CompositeUniforms, BINDING_COMPOSITE) {
   vec4 black;
   vec4 changed_code;        // x: smallest difference of codes that counts
   vec4 glare_from_frame;    // texels of the glare = pixel * xy + zw
+  ivec4 noise;              // added, seed, log2 of the pixels that share a colour (across, down)
+  vec4 noise_slope;         // variance = slope * light + floor
+  vec4 noise_floor;
+  vec4 vignetting;          // v1, v2, v3; w: 1 / the tag's
+  vec4 vignetting_at;       // middle (pixels), 1 / half diagonal squared
+  mat4 noise_mix;           // unit variance of RGB from two numbers a block and one a pixel
 } BLOCK_NAME(composite);
 
 #ifdef __cplusplus

@@ -160,6 +160,11 @@ render::PlateColor Frame::color() const {
   return plate_color(*picture_);
 }
 
+glm::ivec2 Frame::color_block_shift() const {
+  const PixelLayout layout = layout_of(*picture_);
+  return {layout.chroma_shift_x, layout.chroma_shift_y};
+}
+
 Frame Frame::with_composite(const render::Composite& composite) const {
   const PixelRect rect = intersect(composite.rect, {0, 0, width_px(), height_px()});
   if (rect.empty()) return *this;

@@ -34,6 +34,9 @@ class Frame {
   /// The transfer function and primaries that the stream declares (unspecified: sRGB, Rec. 709).
   render::PlateColor color() const;
 
+  /// log2 of the pixels across and down that share a colour sample: (1, 1) in 4:2:0, (0, 0) where every pixel has its own.
+  glm::ivec2 color_block_shift() const;
+
   /// A frame in the same pixel format whose changed pixels (alpha 1) show the composite; every other sample is the decoder's own.
   /// In subsampled formats a chroma sample whose pixels all changed is the mean of theirs; where some did, it moves by the mean
   /// of the changes.

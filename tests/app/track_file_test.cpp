@@ -50,6 +50,8 @@ TrackRow random_row(std::mt19937_64& random, std::int64_t frame) {
   row.blur_px2 = {uniform(random), uniform(random), uniform(random)};
   row.noise_codes = uniform(random);
   row.ambiguity = uniform(random);
+  row.noise = {vector(), vector(), vector()};
+  row.lens_blur = {{vector(), vector()}, uniform(random), uniform(random)};
   return row;
 }
 
@@ -78,6 +80,13 @@ void expect_same(const TrackRow& a, const TrackRow& b) {
   EXPECT_TRUE(same_bits(a.blur_px2.yy, b.blur_px2.yy));
   EXPECT_TRUE(same_bits(a.noise_codes, b.noise_codes));
   EXPECT_TRUE(same_bits(a.ambiguity, b.ambiguity));
+  EXPECT_TRUE(same_bits(a.noise.slope, b.noise.slope));
+  EXPECT_TRUE(same_bits(a.noise.floor, b.noise.floor));
+  EXPECT_TRUE(same_bits(a.noise.correlation, b.noise.correlation));
+  EXPECT_TRUE(same_bits(a.lens_blur.motion.turn_rad, b.lens_blur.motion.turn_rad));
+  EXPECT_TRUE(same_bits(a.lens_blur.motion.shift_m, b.lens_blur.motion.shift_m));
+  EXPECT_TRUE(same_bits(a.lens_blur.shutter, b.lens_blur.shutter));
+  EXPECT_TRUE(same_bits(a.lens_blur.focus_px2, b.lens_blur.focus_px2));
 }
 
 /// The chunks of one recording are the same bytes as one run only if this holds.
@@ -99,8 +108,10 @@ TEST(TrackFile, LostFrameHasEmptyPoseCells) {
   EXPECT_EQ(
       track_file_text({lost}),
       "frame,time_s,found,r00,r01,r02,r10,r11,r12,r20,r21,r22,tx,ty,tz,state,exposure_r,exposure_g,exposure_b,black_r,black_g,"
-      "black_b,corner_sigma_px,ambiguity,blur_xx_px2,blur_xy_px2,blur_yy_px2,noise_codes\n"
-      "4,0.5,0,,,,,,,,,,,,,lost,1,1,1,0,0,0,0,0,0,0,0,0\n");
+      "black_b,corner_sigma_px,ambiguity,blur_xx_px2,blur_xy_px2,blur_yy_px2,noise_codes,"
+      "noise_slope_r,noise_slope_g,noise_slope_b,noise_floor_r,noise_floor_g,noise_floor_b,noise_correlation_rg,"
+      "noise_correlation_rb,noise_correlation_gb,turn_x,turn_y,turn_z,shift_x,shift_y,shift_z,shutter,focus_px2\n"
+      "4,0.5,0,,,,,,,,,,,,,lost,1,1,1,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\n");
   const std::vector<TrackRow> back = read_track_file(folder.write("track.csv", track_file_text({lost})));
   ASSERT_EQ(back.size(), 1u);
   expect_same(back[0], lost);

@@ -159,6 +159,25 @@ TEST(CameraFromFieldOfView, SeesTheImagesOuterEdgesAtTheGivenAngle) {
   EXPECT_FALSE(camera.has_distortion());
 }
 
+TEST_F(CameraFile, VignettingIsOptionalAndStaysAboveNothing) {
+  read(kOpenCv);
+  EXPECT_EQ(read_vignetting(path_), glm::dvec3(0));
+  read(std::string(kOpenCv) + "vignetting: [ -0.3, 0.1, -0.05 ]\n");
+  EXPECT_EQ(read_vignetting(path_), glm::dvec3(-0.3, 0.1, -0.05));
+  const auto refusal = [&](const std::string& value) {
+    read(std::string(kOpenCv) + "vignetting: " + value + "\n");
+    try {
+      read_vignetting(path_);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_THAT(refusal("[ -0.3, 0.1 ]"), HasSubstr("expected three numbers"));
+  EXPECT_THAT(refusal("0.3"), HasSubstr("expected a list"));
+  EXPECT_THAT(refusal("[ -1, 0, 0 ]"), HasSubstr("above 0 up to the corners"));
+}
+
 TEST(CameraFromFieldOfView, RefusesAnglesAndSizesThatCannotBe) {
   for (const double fov_deg : {0.0, -10.0, 180.0, std::numeric_limits<double>::quiet_NaN()})
     EXPECT_THROW(camera_from_field_of_view(640, 480, fov_deg), Error) << fov_deg;

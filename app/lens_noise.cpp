@@ -1,0 +1,207 @@
+#include "app/lens_noise.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "tracking/ideal_pixels.hpp"
+#include "tracking/lens.hpp"
+#include "tracking/photometry.hpp"
+#include "tracking/statistics.hpp"
+#include "tracking/tag_pattern.hpp"
+#include "tracking/tag_view.hpp"
+
+namespace catchlight::app {
+namespace {
+
+constexpr double kReachSigmas = 3, kReachPx = 1;        ///< how far an edge's light reaches: blur, and the chroma's own filter
+constexpr std::size_t kFewestBlocks = 8;                ///< in a cell
+constexpr double kMostOfMedian = 2.5;                   ///< a cell with more variance is not flat
+constexpr double kDarkest = 0.004, kBrightest = 0.985;  ///< codes beyond are clipped
+constexpr double kMostPixels = 40'000;                  ///< looked at in a frame
+constexpr double kWeightFloor = 0.02;                   ///< variance grows about as light + this, so that its own error does too
+
+/// What is left of values at places after their best plane.
+template <class Value>
+void take_off_plane(const std::vector<glm::dvec2>& places, std::vector<Value>& values) {
+  glm::dmat3 normal(0.0);
+  glm::dvec2 middle(0.0);
+  for (const glm::dvec2& place : places) middle += place / static_cast<double>(places.size());
+  std::array<Value, 3> right{};
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const glm::dvec3 base(1, places[i] - middle);
+    normal += glm::outerProduct(base, base);
+    for (int k = 0; k < 3; ++k) right[static_cast<std::size_t>(k)] += values[i] * base[k];
+  }
+  const glm::dmat3 inverse = glm::inverse(normal);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const glm::dvec3 weights = inverse * glm::dvec3(1, places[i] - middle);
+    for (int k = 0; k < 3; ++k) values[i] -= right[static_cast<std::size_t>(k)] * weights[k];
+  }
+}
+
+/// The blocks of a cell that no edge's light reaches.
+struct CellBlocks {
+  std::vector<glm::dvec2> block_places, pixel_places;
+  std::vector<glm::dvec3> color;
+  std::vector<double> luma, block_luma;
+  bool is_clipped = false;
+};
+
+void add_block(const CodePlanes& planes, int column, int row, CellBlocks& cell) {
+  const glm::ivec2 size(1 << planes.block_shift.x, 1 << planes.block_shift.y);
+  const glm::dvec3 color(planes.color[static_cast<std::size_t>(row * planes.blocks_across() + column)]);
+  double sum = 0;
+  for (int y = row * size.y; y < (row + 1) * size.y; ++y)
+    for (int x = column * size.x; x < (column + 1) * size.x; ++x) {
+      const double luma = planes.luma[static_cast<std::size_t>(y * planes.rect.width + x)];
+      cell.luma.push_back(luma);
+      cell.pixel_places.emplace_back(x, y);
+      sum += luma;
+      const glm::dvec3 rgb = luma + color;
+      if (glm::any(glm::lessThan(rgb, glm::dvec3(kDarkest))) || glm::any(glm::greaterThan(rgb, glm::dvec3(kBrightest))))
+        cell.is_clipped = true;
+    }
+  cell.block_luma.push_back(sum / (size.x * size.y));
+  cell.block_places.emplace_back(column, row);
+  cell.color.push_back(color);
+}
+
+/// Light per code: the slope of the curve.
+double slope_at(TransferFunction transfer, double code) {
+  constexpr double kStep = 1e-4;
+  return (linear_from_code(transfer, code + kStep) - linear_from_code(transfer, code - kStep)) / (2 * kStep);
+}
+
+template <class Value>
+Value mean(const std::vector<Value>& values) {
+  Value sum(0.0);
+  for (const Value& value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+/// Non-negative least squares of two unknowns.
+glm::dvec2 line(double w, double wi, double wii, double wv, double wiv) {
+  if (!(w > 0 && wii > 0)) return glm::dvec2(0.0);
+  const double determinant = w * wii - wi * wi;
+  if (determinant > 1e-6 * w * wii) {
+    const double slope = (w * wiv - wi * wv) / determinant, floor = (wii * wv - wi * wiv) / determinant;
+    if (slope >= 0 && floor >= 0) return {slope, floor};
+    if (slope < 0) return {0, std::max(wv / w, 0.0)};
+  }
+  return {std::max(wiv / wii, 0.0), 0};
+}
+
+/// By cell: what of the print is far enough from every edge.
+std::vector<CellBlocks> cells_of(const CodePlanes& planes, const CameraModel& camera, const RigidTransform& camera_from_tag,
+                                 const tracking::BundledTag& tag, const tracking::Covariance2& blur_px2) {
+  const tracking::TagPattern pattern(tracking::tag_layout(tag.family, tag.id));
+  const tracking::TagView view(camera, camera_from_tag, tag.size_m, pattern.cells_across());
+  const int margin = pattern.margin(), side = pattern.cells_across() + 2 * margin;
+  const glm::dvec2 block(1 << planes.block_shift.x, 1 << planes.block_shift.y);
+  const double reach_px =
+      kReachSigmas * std::sqrt(std::max(blur_px2.xx, blur_px2.yy)) + kReachPx + 0.5 * glm::length(block - 1.0);
+  const double reach_px2 = reach_px * reach_px, pixels = static_cast<double>(planes.luma.size());
+  const int step = std::max(1, static_cast<int>(std::ceil(std::sqrt(pixels / kMostPixels))));
+  std::vector<CellBlocks> cells(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+  for (int y = 0; y < planes.rect.height >> planes.block_shift.y; y += step)
+    for (int x = 0; x < planes.blocks_across(); x += step) {
+      const glm::dvec2 at = glm::dvec2(planes.rect.x, planes.rect.y) + glm::dvec2(x, y) * block + 0.5 * (block - 1.0);
+      const auto place = tracking::ideal_pixel(camera, at);
+      const auto point = place ? view.at(place->ideal_px) : std::nullopt;
+      if (!point) continue;
+      const tracking::Covariance2 reach =
+          tracking::in_cells({reach_px2, 0, reach_px2}, point->cell_per_px * place->ideal_per_seen);
+      using enum tracking::TagPattern::Neighbourhood;
+      if (pattern.around(point->cell, {std::sqrt(reach.xx), std::sqrt(reach.yy)}) != plateau) continue;
+      const glm::ivec2 cell = glm::ivec2(glm::floor(point->cell)) + margin;
+      if (cell.x < 0 || cell.y < 0 || cell.x >= side || cell.y >= side) continue;
+      add_block(planes, x, y, cells[static_cast<std::size_t>(cell.y * side + cell.x)]);
+    }
+  return cells;
+}
+
+FlatPatch flat_of(CellBlocks& cell, const glm::dmat3& rounding, TransferFunction transfer) {
+  const glm::dvec3 code = mean(cell.luma) + mean(cell.color), one(1.0);
+  take_off_plane(cell.pixel_places, cell.luma);
+  take_off_plane(cell.block_places, cell.block_luma);
+  take_off_plane(cell.block_places, cell.color);
+  FlatPatch flat;
+  for (const double luma : cell.luma) flat.luma_variance += luma * luma / static_cast<double>(cell.luma.size() - 3);
+  flat.freedom = static_cast<double>(cell.color.size() - 3);
+  glm::dmat3 covariance = glm::outerProduct(one, one) * flat.luma_variance;
+  for (std::size_t i = 0; i < cell.color.size(); ++i) {
+    const glm::dvec3& color = cell.color[i];
+    covariance +=
+        (glm::outerProduct(color, color) + (glm::outerProduct(one, color) + glm::outerProduct(color, one)) * cell.block_luma[i]) /
+        flat.freedom;
+  }
+  glm::dvec3 slope(0.0);
+  for (int c = 0; c < 3; ++c) {
+    slope[c] = slope_at(transfer, code[c]);
+    flat.light[c] = linear_from_code(transfer, code[c]);
+  }
+  flat.covariance = glm::matrixCompMult(covariance - rounding, glm::outerProduct(slope, slope));
+  return flat;
+}
+
+}  // namespace
+
+void NoiseMeter::add(const Frame& frame, const TrackRow& row) {
+  if (row.state != tracking::TrackState::tracking || !(row.noise_codes > 0)) return;
+  for (const tracking::BundledTag& tag : target_.tags()) add_tag(frame, row, tag);
+}
+
+void NoiseMeter::add_tag(const Frame& frame, const TrackRow& row, const tracking::BundledTag& tag) {
+  const RigidTransform camera_from_tag = row.camera_from_tag * tag.tag_from_this;
+  const CodePlanes planes =
+      code_planes(frame, tracking::photometry_region(camera_, camera_from_tag, tracking::TagTarget{tag, {}}));
+  if (planes.rect.empty()) return;
+  std::vector<FlatPatch> flats;
+  for (CellBlocks& cell : cells_of(planes, camera_, camera_from_tag, tag, row.blur_px2))
+    if (cell.color.size() >= kFewestBlocks && !cell.is_clipped)
+      flats.push_back(flat_of(cell, planes.rounding, frame.color().transfer));
+  if (flats.empty()) return;
+  // Each ink by itself: what is much for black is little for white.
+  const auto [low, high] = std::ranges::minmax_element(flats, {}, [](const FlatPatch& flat) { return flat.light.g; });
+  const double between = (low->light.g + high->light.g) / 2;
+  const auto white = std::ranges::partition(flats, [&](const FlatPatch& flat) { return flat.light.g <= between; });
+  add_alike({flats.begin(), white.begin()});
+  add_alike({white.begin(), white.end()});
+}
+
+void NoiseMeter::add_alike(std::span<const FlatPatch> flats) {
+  if (flats.empty()) return;
+  std::vector<double> variances;
+  for (const FlatPatch& flat : flats) variances.push_back(flat.luma_variance);
+  const double most = kMostOfMedian * tracking::median(std::move(variances));
+  for (const FlatPatch& flat : flats)
+    if (flat.luma_variance <= most) add(flat);
+}
+
+void NoiseMeter::add(const FlatPatch& flat) {
+  const glm::dvec3 light = glm::max(flat.light, glm::dvec3(0.0));
+  for (int c = 0; c < 3; ++c) {
+    const double i = light[c], v = flat.covariance[c][c], w = flat.freedom / ((i + kWeightFloor) * (i + kWeightFloor));
+    w_[c] += w, wi_[c] += w * i, wii_[c] += w * i * i, wv_[c] += w * v, wiv_[c] += w * i * v;
+  }
+  together_ += flat.covariance * (flat.freedom / (glm::dot(kLuminanceWeights, light) + kWeightFloor));
+}
+
+NoiseModel NoiseMeter::model() const {
+  NoiseModel model;
+  for (int c = 0; c < 3; ++c) {
+    const glm::dvec2 of_channel = line(w_[c], wi_[c], wii_[c], wv_[c], wiv_[c]);
+    model.slope[c] = of_channel.x;
+    model.floor[c] = of_channel.y;
+  }
+  const auto correlation = [&](int a, int b) {
+    const double scale = together_[a][a] > 0 && together_[b][b] > 0 ? std::sqrt(together_[a][a] * together_[b][b]) : 0;
+    return scale > 0 ? std::clamp(together_[a][b] / scale, -1.0, 1.0) : 0.0;
+  };
+  model.correlation = {correlation(0, 1), correlation(0, 2), correlation(1, 2)};
+  return model;
+}
+
+}  // namespace catchlight::app

@@ -1,0 +1,50 @@
+// Measures the footage's noise where its picture is known to be flat: inside the cells of the tag's print.
+#pragma once
+
+#include <span>
+
+#include "app/lens_model.hpp"
+#include "app/media/code_planes.hpp"
+#include "app/media/frame.hpp"
+#include "app/track_file.hpp"
+#include "tracking/tracker.hpp"
+
+namespace catchlight::app {
+
+/// What one cell shows.
+struct FlatPatch {
+  glm::dvec3 light{0.0};       ///< mean, exposed linear
+  glm::dmat3 covariance{0.0};  ///< of it
+  double luma_variance = 0;    ///< in codes
+  double freedom = 0;          ///< degrees of it
+};
+
+/// White cells give the noise of one brightness, black cells of another, and changing exposure of more; every frame adds to the
+/// same sums. In each cell a plane is taken off luma (a pixel a value) and off colour (a chroma sample a value), so that neither
+/// shading nor the codec's coarser chroma counts as more or less noise; degrees of freedom and the variance of rounding (1/12
+/// code^2) are allowed for. Cells that are not flat (dust, a shadow's edge, the object's cover) stand out from the others' median
+/// and are left out.
+class NoiseMeter {
+ public:
+  NoiseMeter(const CameraModel& camera, const tracking::TagTarget& target) : camera_(camera), target_(target) {}
+
+  /// Counts where the row's tag was seen and its blur measured.
+  void add(const Frame& frame, const TrackRow& row);
+
+  /// By weighted least squares; neither slope nor floor is negative. Not measured where the cells were too small.
+  NoiseModel model() const;
+
+ private:
+  void add_tag(const Frame& frame, const TrackRow& row, const tracking::BundledTag& tag);
+  /// Of one ink, less the ones that stand out.
+  void add_alike(std::span<const FlatPatch> flats);
+  void add(const FlatPatch& flat);
+
+  CameraModel camera_;
+  tracking::TagTarget target_;
+  // Of weight, light, light squared, variance, light times variance.
+  glm::dvec3 w_{0.0}, wi_{0.0}, wii_{0.0}, wv_{0.0}, wiv_{0.0};
+  glm::dmat3 together_{0.0};  ///< covariances, for the correlation
+};
+
+}  // namespace catchlight::app

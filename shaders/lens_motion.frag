@@ -1,0 +1,46 @@
+// What the shutter sums up: a box along each pixel's own way, of object and shadow together.
+#version 450 core
+#include "interface.h"
+
+layout(binding = TEXTURE_OBJECT) uniform sampler2D object;  // premultiplied exposed linear
+layout(binding = TEXTURE_SHADOW) uniform sampler2D shadow;  // ratio
+layout(location = 0) uniform ivec2 size;                    // of what the textures hold
+// Pixels of way at the first pixel, and how it changes.
+layout(location = 1) uniform vec2 object_way;
+layout(location = 2) uniform mat2 object_change;
+layout(location = 3) uniform vec2 shadow_way;
+layout(location = 4) uniform mat2 shadow_change;
+
+layout(location = 0) out vec4 object_blurred;
+layout(location = 1) out vec4 shadow_blurred;
+
+const float kMostWay = 120.0;
+
+vec4 fetch(sampler2D source, ivec2 pixel) { return texelFetch(source, clamp(pixel, ivec2(0), size - 1), 0); }
+
+// Steps of a pixel along the longer axis, with the weights (all alike but the two outermost) whose variance is the box's,
+// length^2 / 12; linear between pixels across.
+vec4 mean_along(sampler2D source, ivec2 pixel, vec2 way) {
+  bool steep = abs(way.y) > abs(way.x);
+  float length_px = min(steep ? abs(way.y) : abs(way.x), kMostWay);
+  int reach = int(ceil(0.5 * (sqrt(1.0 + length_px * length_px) - 1.0) - 1e-6));
+  if (reach == 0) return fetch(source, pixel);
+  float slope = steep ? way.x / way.y : way.y / way.x;
+  float variance = length_px * length_px / 12.0, k = float(reach), inner = (k - 1.0) * k / 3.0;
+  float ends = (variance - inner) / (k * k - inner), each = (1.0 - ends) / (2.0 * k - 1.0);
+  vec4 sum = vec4(0.0);
+  for (int i = -reach; i <= reach; ++i) {
+    float across = float(i) * slope, low = floor(across), share = across - low;
+    ivec2 first = steep ? ivec2(int(low), i) : ivec2(i, int(low)), next = steep ? ivec2(1, 0) : ivec2(0, 1);
+    vec4 light = fetch(source, pixel + first);
+    if (share > 0.0) light = mix(light, fetch(source, pixel + first + next), share);
+    sum += (abs(i) == reach ? 0.5 * ends : each) * light;
+  }
+  return sum;
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  object_blurred = mean_along(object, pixel, object_way + object_change * vec2(pixel));
+  shadow_blurred = mean_along(shadow, pixel, shadow_way + shadow_change * vec2(pixel));
+}
