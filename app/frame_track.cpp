@@ -2,11 +2,9 @@
 
 #include <map>
 
-#include "app/exposure.hpp"
+#include "app/exposure_track.hpp"
 #include "app/lens_blur.hpp"
 #include "app/lens_noise.hpp"
-#include "app/linear_patch.hpp"
-#include "tracking/photometry.hpp"
 #include "tracking/planar_pose.hpp"
 #include "tracking/pose_covariance.hpp"
 #include "tracking/recorded_path.hpp"
@@ -15,44 +13,6 @@
 namespace catchlight::app {
 
 namespace {
-
-/// Follows the exposure through the frames in which the tag's cells can be read.
-class ExposureTrack {
- public:
-  ExposureTrack(const CameraModel& camera, const SceneSettings& scene)
-      : camera_(camera), target_(scene.tag.target()), matcher_(scene.tag.white_albedo, scene.tag.black_albedo) {}
-
-  /// `row` has its pose and state. A pose that was only predicted may not lie on the cells: the exposure is held. Returns whether
-  /// it was measured.
-  bool add_exposure(const Frame& frame, TrackRow& row) {
-    std::optional<tracking::TagPhotometry> photometry;
-    if (row.state == tracking::TrackState::tracking) photometry = measure(frame, row);
-    const TagExposure exposure = matcher_.update(photometry);
-    row.has_exposure = true;
-    row.exposure = exposure.white;
-    row.black = exposure.black;
-    return photometry.has_value();
-  }
-
- private:
-  /// By the first tag of a board that can be read.
-  std::optional<tracking::TagPhotometry> measure(const Frame& frame, const TrackRow& row) const {
-    const std::optional<tracking::Covariance2> blur_px2 = row.noise_codes > 0 ? std::optional(row.blur_px2) : std::nullopt;
-    for (const tracking::BundledTag& tag : target_.tags()) {
-      const RigidTransform camera_from_tag = row.camera_from_tag * tag.tag_from_this;
-      const tracking::TagTarget alone{tag, {}};
-      const PixelRect region = tracking::photometry_region(camera_, camera_from_tag, alone);
-      if (region.empty()) continue;
-      const std::vector<float> linear = linear_rgb(frame, region);
-      if (auto seen = tracking::measure_photometry({region, linear}, camera_, camera_from_tag, alone, blur_px2)) return seen;
-    }
-    return std::nullopt;
-  }
-
-  CameraModel camera_;
-  tracking::TagTarget target_;
-  ExposureMatcher matcher_;
-};
 
 /// Whether any of the target can be in the picture.
 bool is_in_picture(const CameraModel& camera, const tracking::TagTarget& target, const RigidTransform& camera_from_tag) {
@@ -108,7 +68,7 @@ class TagTrack : public FrameTrack {
     row.corner_sigma_px = seen.corner_sigma_px;
     row.ambiguity = seen.ambiguity;
     set_appearance(row, seen.appearance);
-    exposure_.add_exposure(frame, row);
+    exposure_.add(frame, row);
     noise_.add(frame, row);
     row.noise = noise_.model();
     lens_blur_.add(row);
@@ -116,6 +76,7 @@ class TagTrack : public FrameTrack {
   }
 
   bool is_tracking() const override { return true; }
+  std::optional<std::string> warning() const override { return exposure_.warning(); }
 
  private:
   CameraModel camera_;
@@ -137,32 +98,17 @@ class RecordedTrack : public FrameTrack {
     if (const auto found = rows_.find(frame.number()); found != rows_.end()) row = found->second;
     row.frame = frame.number();
     row.time_s = frame.time_s();
-    if (!row.has_exposure) exposure_.add_exposure(frame, row);
+    if (!row.has_exposure) exposure_.add(frame, row);
     return row;
   }
 
   bool is_tracking() const override { return false; }
+  std::optional<std::string> warning() const override { return exposure_.warning(); }
 
  private:
   std::map<std::int64_t, TrackRow> rows_;
   ExposureTrack exposure_;
 };
-
-/// Unmeasured rows take the exposure of the nearest measured one; of two, the earlier.
-void fill_exposures(std::vector<TrackRow>& rows, const std::vector<bool>& measured) {
-  std::vector<std::size_t> known;
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    if (measured[i]) known.push_back(i);
-  if (known.empty()) return;
-  for (std::size_t i = 0, next = 0; i < rows.size(); ++i) {
-    while (next + 1 < known.size() && known[next] < i) ++next;
-    std::size_t nearest = known[next];
-    if (next > 0 && i - known[next - 1] <= (nearest > i ? nearest - i : i - nearest)) nearest = known[next - 1];
-    if (measured[i]) nearest = i;
-    rows[i].exposure = rows[nearest].exposure;
-    rows[i].black = rows[nearest].black;
-  }
-}
 
 }  // namespace
 
@@ -170,17 +116,15 @@ struct PathTrack::Impl {
   CameraModel camera;
   tracking::TagTarget target;
   tracking::RecordedPath path;
-  ExposureTrack exposure;
+  ExposurePath exposure;
   NoiseMeter noise;
   std::vector<TrackRow> rows;
-  std::vector<bool> measured;
 };
 
 PathTrack::PathTrack(const CameraModel& camera, const SceneSettings& scene) {
   const tracking::TagTarget target = scene.tag.target();
-  impl_ = std::make_unique<Impl>(Impl{
-      camera, target, tracking::RecordedPath(camera, target, scene.tag.tracker_options()), ExposureTrack(camera, scene),
-      NoiseMeter(camera, target), {}, {}});
+  impl_ = std::make_unique<Impl>(Impl{camera, target, tracking::RecordedPath(camera, target, scene.tag.tracker_options()),
+                                      ExposurePath(camera, scene), NoiseMeter(camera, target), {}});
 }
 
 PathTrack::~PathTrack() = default;
@@ -190,7 +134,7 @@ void PathTrack::add(const Frame& frame) {
   TrackRow row = row_of(frame);
   set_pose(row, seen.state, seen.camera_from_tag, impl_->camera, impl_->target);
   set_appearance(row, seen.appearance);
-  impl_->measured.push_back(impl_->exposure.add_exposure(frame, row));
+  impl_->exposure.add(frame, row);
   impl_->noise.add(frame, row);
   impl_->rows.push_back(row);
 }
@@ -206,11 +150,15 @@ std::vector<TrackRow> PathTrack::solve() const {
           tracking::corner_sigma_px(impl_->camera, poses[i].camera_from_tag, poses[i].covariance, impl_->target.size_m);
     set_appearance(rows[i], impl_->path.appearances()[i]);
   }
-  fill_exposures(rows, impl_->measured);
+  impl_->exposure.fill_in(rows);
   const NoiseModel noise = impl_->noise.model();
   for (TrackRow& row : rows) row.noise = noise;
   measure_lens_blur(rows, impl_->camera, impl_->target.size_m);
   return rows;
+}
+
+std::optional<std::string> PathTrack::warning(const std::vector<TrackRow>& rows) const {
+  return impl_->exposure.warning(rows);
 }
 
 std::unique_ptr<FrameTrack> make_tag_track(const CameraModel& camera, const SceneSettings& scene) {

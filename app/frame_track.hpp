@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "app/media/frame.hpp"
@@ -19,6 +21,9 @@ class FrameTrack {
 
   /// Whether row() tracks, or only looks up what is known.
   virtual bool is_tracking() const = 0;
+
+  /// What the user should know of the rows so far, if anything.
+  virtual std::optional<std::string> warning() const = 0;
 };
 
 /// Tracks the tag causally, for live footage: each row knows the frames before it. Measures the tag's photometry.
@@ -33,8 +38,11 @@ class PathTrack {
   /// Frames come in order, none left out.
   void add(const Frame& frame);
 
-  /// One row a frame. Where the tag could not be measured, the exposure is that of the nearest frame where it could.
+  /// One row a frame. The exposure is as app/exposure_track.hpp says of recorded footage.
   std::vector<TrackRow> solve() const;
+
+  /// What the user should know of the rows that solve() gave, if anything.
+  std::optional<std::string> warning(const std::vector<TrackRow>& rows) const;
 
  private:
   struct Impl;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace catchlight::app {
 
@@ -51,6 +52,11 @@ std::vector<float> linear_rgb(const Frame& frame, const PixelRect& rect) {
     }
   }
   return linear;
+}
+
+glm::dvec3 clipped_linear(const Frame& frame) {
+  if (frame.is_float()) return glm::dvec3(std::numeric_limits<double>::infinity());
+  return glm::dvec3(linear_from_code(frame.color().transfer, 250.0 / 255));
 }
 
 double code_from_linear(TransferFunction transfer, double linear) {

@@ -10,6 +10,9 @@ namespace catchlight::app {
 /// RGB triples of `rect`, row-major, Rec. 709 primaries; 1 = sensor white.
 std::vector<float> linear_rgb(const Frame& frame, const PixelRect& rect);
 
+/// Light from which on the sensor may have clipped: that of code 250 of 255. Infinite for floats, which do not end at 1.
+glm::dvec3 clipped_linear(const Frame& frame);
+
 /// The inverse of linear_from_code(); light below 0 that has no code there (all but sRGB and linear) gets black's.
 double code_from_linear(TransferFunction transfer, double linear);
 

@@ -157,6 +157,7 @@ OverlayResult run(MediaSource& source, FrameTrack& track, const FrameRange& rang
     count(row, report);
     result.rows.push_back(row);
   });
+  if (const auto warning = track.warning()) log.warn(*warning);
   report.fps = frames_per_second(report.frames, start);
   return result;
 }
@@ -266,9 +267,11 @@ OverlayResult solve_track(MediaSource& source, const CameraModel& camera, const 
   const auto start = std::chrono::steady_clock::now();
   const auto add = [&](const Frame& frame) { report.stages.measure("track", [&] { path.add(frame); }); };
   result.damage = read_frames(source, with_a_second_more(range, source.info()), "track", log, report.stages, add);
-  for (const TrackRow& row : report.stages.measure("solve path", [&] { return path.solve(); }))
+  const std::vector<TrackRow> solved = report.stages.measure("solve path", [&] { return path.solve(); });
+  for (const TrackRow& row : solved)
     if (range.contains(row.frame)) result.rows.push_back(row);
   for (const TrackRow& row : result.rows) count(row, report);
+  if (const auto warning = path.warning(solved)) log.warn(*warning);
   report.fps = frames_per_second(report.frames, start);
   return result;
 }

@@ -1,6 +1,8 @@
 #include "tracking/photometry.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "tracking/families.hpp"
@@ -12,11 +14,10 @@
 namespace catchlight::tracking {
 namespace {
 
-constexpr double kSmallestCellPx = 3;     ///< below it, no pixel of a cell is free of its neighbours' light
-constexpr int kSamplesAcross = 8;         ///< of a cell's middle, at most: more would add nothing but time
-constexpr double kClippedLinear = 0.955;  ///< code 250 of 255 in sRGB: at or above, the true value is unknown
-constexpr double kClippedShare = 0.1;     ///< of the white samples: more would pull their mean
-constexpr double kTrimmedShare = 0.25;    ///< of the cells, at either end: a highlight, a shadow's edge, a stain
+constexpr double kSmallestCellPx = 3;   ///< below it, no pixel of a cell is free of its neighbours' light
+constexpr int kSamplesAcross = 8;       ///< of a cell's middle, at most: more would add nothing but time
+constexpr double kClippedShare = 0.1;   ///< of the samples: more would pull their mean
+constexpr double kTrimmedShare = 0.25;  ///< of the cells, at either end: a highlight, a shadow's edge, a stain
 
 /// Maps cells of the layout to where they are seen.
 struct CellGrid {
@@ -46,8 +47,13 @@ CellGrid cell_grid(const CameraModel& camera, const RigidTransform& camera_from_
 
 struct CellMean {
   glm::dvec3 linear{0.0};
-  int pixels = 0, clipped = 0;
+  int pixels = 0;
+  glm::ivec3 clipped{0};  ///< pixels
 };
+
+void count_clipped(const LinearPatch& patch, const glm::dvec3& linear, glm::ivec3& clipped) {
+  for (int c = 0; c < 3; ++c) clipped[c] += linear[c] >= patch.clipped_linear[c];
+}
 
 /// Mean of the nearest pixels to a grid of points in the cell's central half.
 CellMean cell_mean(const LinearPatch& patch, const CellGrid& grid, int column, int row) {
@@ -59,29 +65,42 @@ CellMean cell_mean(const LinearPatch& patch, const CellGrid& grid, int column, i
     const double u = 0.25 + 0.5 * (i % across + 0.5) / across, v = 0.25 + 0.5 * (i / across + 0.5) / across;
     const auto seen = grid.seen_px(column + u, row + v);
     if (!seen) continue;
-    const double x = std::round(seen->x) - patch.rect.x, y = std::round(seen->y) - patch.rect.y;
-    if (!(x >= 0 && x < patch.rect.width && y >= 0 && y < patch.rect.height)) continue;
-    const float* rgb = &patch.rgb[3 * (static_cast<std::size_t>(y) * patch.rect.width + static_cast<std::size_t>(x))];
-    mean.linear += glm::dvec3(rgb[0], rgb[1], rgb[2]);
-    mean.clipped += std::max({rgb[0], rgb[1], rgb[2]}) >= kClippedLinear;
+    const auto rgb = patch.at(*seen);
+    if (!rgb) continue;
+    mean.linear += *rgb;
+    count_clipped(patch, *rgb, mean.clipped);
     ++mean.pixels;
   }
   if (mean.pixels > 0) mean.linear /= mean.pixels;
   return mean;
 }
 
-/// Mean over cells without the darkest and brightest quarter.
-glm::dvec3 trimmed_mean(std::vector<CellMean> cells) {
-  std::sort(cells.begin(), cells.end(), [](const CellMean& a, const CellMean& b) {
-    return glm::dot(a.linear, kLuminanceWeights) < glm::dot(b.linear, kLuminanceWeights);
+/// Mean over cells without the darkest and brightest quarter of a channel.
+double trimmed_mean(const std::vector<CellMean>& cells, int channel) {
+  std::vector<double> light;
+  for (const CellMean& cell : cells) light.push_back(cell.linear[channel]);
+  std::sort(light.begin(), light.end());
+  const auto trimmed = static_cast<std::ptrdiff_t>(kTrimmedShare * static_cast<double>(cells.size()));
+  return std::accumulate(light.begin() + trimmed, light.end() - trimmed, 0.0) /
+         static_cast<double>(light.end() - light.begin() - 2 * trimmed);
+}
+
+/// Whether more cells are clipped than the mean leaves out at the bright end.
+bool is_clipped(const std::vector<CellMean>& cells, int channel) {
+  const auto clipped = std::count_if(cells.begin(), cells.end(), [channel](const CellMean& cell) {
+    return cell.clipped[channel] > kClippedShare * cell.pixels;
   });
-  const auto trimmed = static_cast<std::size_t>(kTrimmedShare * static_cast<double>(cells.size()));
-  glm::dvec3 sum(0.0);
-  for (std::size_t i = trimmed; i < cells.size() - trimmed; ++i) sum += cells[i].linear;
-  return sum / static_cast<double>(cells.size() - 2 * trimmed);
+  return clipped > static_cast<std::ptrdiff_t>(kTrimmedShare * static_cast<double>(cells.size()));
 }
 
 }  // namespace
+
+std::optional<glm::dvec3> LinearPatch::at(const glm::dvec2& seen_px) const {
+  const double x = std::round(seen_px.x) - rect.x, y = std::round(seen_px.y) - rect.y;
+  if (!(x >= 0 && x < rect.width && y >= 0 && y < rect.height)) return std::nullopt;
+  const float* value = &rgb[3 * (static_cast<std::size_t>(y) * rect.width + static_cast<std::size_t>(x))];
+  return glm::dvec3(value[0], value[1], value[2]);
+}
 
 PixelRect photometry_region(const CameraModel& camera, const RigidTransform& camera_from_tag, const TagTarget& target) {
   const TagLayout layout = tag_layout(target.family, target.id);
@@ -115,7 +134,8 @@ std::optional<TagPhotometry> unmixed_photometry(const LinearPatch& patch, const 
   const TagView view(camera, camera_from_tag, target.size_m, layout.cells_across);
   const TagPattern pattern(layout);
   TagPhotometry photometry;
-  double n = 0, w = 0, ww = 0, clipped = 0, light = 0;
+  double n = 0, w = 0, ww = 0, light = 0;
+  glm::ivec3 clipped(0);
   glm::dvec3 l(0.0), wl(0.0);
   for (int row = 0; row < patch.rect.height; ++row)
     for (int column = 0; column < patch.rect.width; ++column) {
@@ -125,18 +145,21 @@ std::optional<TagPhotometry> unmixed_photometry(const LinearPatch& patch, const 
       if (point->cell.x > layout.cells_across || point->cell.y > layout.cells_across) continue;
       const PatternSample sample = pattern.sample(point->cell, in_cells(blur_px2, point->cell_per_px * place->ideal_per_seen));
       if (!sample.known) continue;
-      const float* rgb = &patch.rgb[3 * (static_cast<std::size_t>(row) * patch.rect.width + static_cast<std::size_t>(column))];
-      const glm::dvec3 linear(rgb[0], rgb[1], rgb[2]);
+      const glm::dvec3 linear = *patch.at({patch.rect.x + column, patch.rect.y + row});
       light += sample.white > 0.5;
-      clipped += sample.white > 0.5 && std::max({rgb[0], rgb[1], rgb[2]}) >= kClippedLinear;
+      if (sample.white > 0.5) count_clipped(patch, linear, clipped);
       n += 1, w += sample.white, ww += sample.white * sample.white;
       l += linear, wl += sample.white * linear;
     }
   const double spread = n * ww - w * w;
-  if (!(spread > kLeastSpread * n * n) || clipped > kClippedShare * light) return std::nullopt;
+  if (!(spread > kLeastSpread * n * n)) return std::nullopt;
   const glm::dvec3 gain = (n * wl - w * l) / spread;
   photometry.black_linear = glm::max((l - gain * w) / n, glm::dvec3(0.0));
   photometry.white_linear = photometry.black_linear + gain;
+  for (int c = 0; c < 3; ++c) {
+    photometry.is_clipped[c] = clipped[c] > kClippedShare * light;
+    if (photometry.is_clipped[c]) photometry.black_linear[c] = 0;
+  }
   photometry.white_pixels = static_cast<int>(light);
   photometry.black_pixels = static_cast<int>(n - light);
   return glm::dot(gain, kLuminanceWeights) > 0 ? std::optional(photometry) : std::nullopt;
@@ -151,7 +174,6 @@ std::optional<TagPhotometry> measure_photometry(const LinearPatch& patch, const 
   const CellGrid grid = cell_grid(camera, camera_from_tag, target, layout);
   std::vector<CellMean> white, black;
   TagPhotometry photometry;
-  int clipped_white = 0;
   for (int row = -layout.margin; row < layout.cells_across + layout.margin; ++row)
     for (int column = -layout.margin; column < layout.cells_across + layout.margin; ++column) {
       const Ink ink = layout.at(column, row);
@@ -160,16 +182,19 @@ std::optional<TagPhotometry> measure_photometry(const LinearPatch& patch, const 
       if (mean.pixels == 0) continue;
       (ink == Ink::white ? white : black).push_back(mean);
       (ink == Ink::white ? photometry.white_pixels : photometry.black_pixels) += mean.pixels;
-      if (ink == Ink::white) clipped_white += mean.clipped;
     }
   // Fewer than a ring's worth of either would let a single stain decide.
   constexpr std::size_t kFewestCells = 8;
   if (white.size() < kFewestCells || black.size() < kFewestCells)
     return blur_px2 ? unmixed_photometry(patch, camera, camera_from_tag, target, layout, *blur_px2) : std::nullopt;
-  if (clipped_white > kClippedShare * photometry.white_pixels) return std::nullopt;
-  photometry.white_linear = trimmed_mean(white);
-  photometry.black_linear = trimmed_mean(black);
+  for (int c = 0; c < 3; ++c) {
+    photometry.white_linear[c] = trimmed_mean(white, c);
+    photometry.black_linear[c] = trimmed_mean(black, c);
+    photometry.is_clipped[c] = is_clipped(white, c);
+  }
   if (!(glm::dot(photometry.white_linear - photometry.black_linear, kLuminanceWeights) > 0)) return std::nullopt;
+  for (int c = 0; c < 3; ++c)
+    if (is_clipped(black, c)) photometry.black_linear[c] = 0;
   return photometry;
 }
 

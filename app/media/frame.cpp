@@ -119,6 +119,10 @@ int Frame::height_px() const {
   return picture_->height;
 }
 
+bool Frame::is_float() const {
+  return layout_of(*picture_).is_float;
+}
+
 tracking::LumaView Frame::luma() const {
   const PixelLayout layout = layout_of(*picture_);
   tracking::LumaView view;

@@ -22,6 +22,7 @@ class Frame {
   int width_px() const;
   int height_px() const;
   const AVFrame& picture() const { return *picture_; }
+  bool is_float() const;  ///< codes that do not end at 1
 
   /// The luma plane as it is where it is 8-bit YUV or grey; else made once: deeper planes rounded to 8 bits, RGB weighted by Rec.
   /// 709 on codes, float linear frames coded as sRGB first.

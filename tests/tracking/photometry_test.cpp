@@ -21,7 +21,7 @@ SyntheticScene one_tag(double distance_m, const std::string& family = "tag36h11"
 struct Patch {
   PixelRect rect;
   std::vector<float> rgb;
-  LinearPatch view() const { return {rect, rgb}; }
+  LinearPatch view() const { return {rect, rgb, glm::dvec3(0.955)}; }
 };
 
 Patch patch_of(const SyntheticScene& scene, const SyntheticFrame& frame, const glm::vec3& tint = glm::vec3(1)) {
@@ -81,10 +81,53 @@ TEST(Photometry, AHighlightOnAFewCellsDoesNotCount) {
 TEST(Photometry, ClippedWhiteIsNotTrusted) {
   SyntheticScene scene = one_tag(0.35);
   scene.white_linear = 1.3;
-  EXPECT_FALSE(measure(scene, patch_of(scene, render(scene)))) << "all channels";
+  EXPECT_EQ(measure(scene, patch_of(scene, render(scene)))->is_clipped, glm::bvec3(true)) << "all channels";
   scene.white_linear = 0.6;
-  EXPECT_FALSE(measure(scene, patch_of(scene, render(scene), {0.5f, 2.0f, 0.5f}))) << "one channel";
-  EXPECT_TRUE(measure(scene, patch_of(scene, render(scene), {1.5f, 1.5f, 1.5f}))) << "bright, not clipped";
+  const auto one = measure(scene, patch_of(scene, render(scene), {0.5f, 2.0f, 0.5f}));
+  EXPECT_EQ(one->is_clipped, glm::bvec3(false, true, false));
+  EXPECT_NEAR(one->white_linear.r, 0.3, 0.002) << "the others are as good as ever";
+  EXPECT_NEAR(one->black_linear.g, 0.06, 0.002) << "and so is black";
+  EXPECT_EQ(measure(scene, patch_of(scene, render(scene), {1.5f, 1.5f, 1.5f}))->is_clipped, glm::bvec3(false))
+      << "bright, not clipped";
+}
+
+TEST(Photometry, AFifthOfTheTagClippedByAHighlightDoesNotCount) {
+  const SyntheticScene scene = one_tag(0.35);
+  SyntheticFrame frame = render(scene);
+  const PixelRect region = photometry_region(scene.camera, scene.tags[0].camera_from_tag, {});
+  for (int y = region.y; y < region.y + region.height / 5; ++y)
+    for (int x = region.x; x < region.x + region.width; ++x)
+      frame.linear[static_cast<std::size_t>(y * frame.width_px + x)] = 5.0f;
+  const auto measured = measure(scene, patch_of(scene, frame));
+  ASSERT_TRUE(measured);
+  EXPECT_EQ(measured->is_clipped, glm::bvec3(false));
+  EXPECT_NEAR(measured->white_linear.g, scene.white_linear, 0.005);
+}
+
+/// What the sensor is said to clip at decides, not sRGB's.
+TEST(Photometry, LightBeyondOneIsMeasuredWhereTheFootageHoldsIt) {
+  SyntheticScene scene = one_tag(0.35);
+  scene.white_linear = 4;
+  const SyntheticFrame frame = render(scene);
+  const PixelRect region = photometry_region(scene.camera, scene.tags[0].camera_from_tag, {});
+  std::vector<float> rgb;
+  for (int y = region.y; y < region.y + region.height; ++y)
+    for (int x = region.x; x < region.x + region.width; ++x)
+      rgb.insert(rgb.end(), 3, frame.linear[static_cast<std::size_t>(y * frame.width_px + x)]);
+  const auto measured =
+      measure_photometry({region, rgb, glm::dvec3(40)}, scene.camera, scene.tags[0].camera_from_tag, scene.tags[0].target);
+  ASSERT_TRUE(measured);
+  EXPECT_EQ(measured->is_clipped, glm::bvec3(false));
+  EXPECT_NEAR(measured->white_linear.g, 4, 0.02);
+}
+
+TEST(Photometry, ABlackFrameAndAWhiteFrameHaveNoMeasure) {
+  const SyntheticScene scene = one_tag(0.35);
+  SyntheticFrame frame = render(scene);
+  for (const float light : {0.0f, 1.0f}) {
+    std::fill(frame.linear.begin(), frame.linear.end(), light);
+    EXPECT_FALSE(measure(scene, patch_of(scene, frame))) << light;
+  }
 }
 
 TEST(Photometry, ATagWithCellsOfTwoPixelsIsTooSmall) {
