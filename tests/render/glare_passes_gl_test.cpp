@@ -70,12 +70,12 @@ struct Range {
 
 TEST_F(GlarePassesGl, AOnePixelHighlightKeepsItsEnergyWhileItMovesByAPixel) {
   GlarePass pass(GlareSettings{}, "");
-  for (const float radiance : {40.0f, 100.0f, 1000.0f, 1e5f}) {
+  for (const float radiance : {30.0f, 100.0f, 1000.0f, 1e5f}) {
     for (const glm::dvec2 direction : {glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(1, 1)}) {
       Range energy;
       for (int i = 0; i <= 20; ++i) {
-        const glm::dvec2 at = glm::dvec2(301, 222) + 0.05 * i * direction;
-        const Glared result = glared(pass, one_pixel_highlight(640, 480, at.x, at.y, radiance));
+        const glm::dvec2 at = glm::dvec2(151, 222) + 0.05 * i * direction;
+        const Glared result = glared(pass, one_pixel_highlight(320, 480, at.x, at.y, radiance));
         ASSERT_TRUE(result.any) << radiance;
         energy.add(sum_of(result.glare));
       }
