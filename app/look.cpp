@@ -20,11 +20,11 @@ const LookSetting kClassic[] = {
 
 }  // namespace
 
-void apply_look(SceneSettings& scene) {
+void apply_look(SceneSettings& scene, const std::set<std::string>& kept) {
   if (scene.look != "classic") return;
   const std::set<std::string> by_hand = scene.by_hand;
   for (const LookSetting& setting : kClassic)
-    if (!by_hand.contains(setting.key)) set_parameter(scene, *find_parameter(setting.key), setting.value);
+    if (!kept.contains(setting.key)) set_parameter(scene, *find_parameter(setting.key), setting.value);
   scene.by_hand = by_hand;
 }
 

@@ -5,8 +5,8 @@
 
 namespace catchlight::app {
 
-/// Sets what `scene.look` names wherever neither the scene file nor the command line set it. After both.
-void apply_look(SceneSettings& scene);
+/// Sets what `scene.look` names, except for `kept` keys. After scene file and command line.
+void apply_look(SceneSettings& scene, const std::set<std::string>& kept);
 
 /// What the compositor is told of exposure and look.
 render::ToneSettings tone_settings(const SceneSettings& scene);

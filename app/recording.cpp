@@ -98,8 +98,13 @@ void choose_scene(Recording& recording, const RecordingOverrides& overrides) {
   if (!file && !recording.folder.empty()) file = if_exists(fs::path(recording.folder) / "scene.toml");
   if (!file) throw Error(recording.footage + ": no scene (" + where_expected(recording, "scene.toml") + "); pass --scene FILE");
   recording.scene = read_scene_file(*file);
-  for (const auto& [key, text] : overrides.parameters) set_parameter_from_text(recording.scene, key, text);
-  apply_look(recording.scene);
+  std::set<std::string> options;
+  for (const auto& [key, text] : overrides.parameters) {
+    set_parameter_from_text(recording.scene, key, text);
+    options.insert(key);
+  }
+  // A look that is an option goes before what the scene file sets, as options do.
+  apply_look(recording.scene, options.contains("look") ? options : recording.scene.by_hand);
   recording.scene.probe.strict = overrides.strict;
 }
 

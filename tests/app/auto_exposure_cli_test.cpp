@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 
 TEST(Look, StandsBeforeTheFirstSectionAndLeavesWhatIsSetByHand) {
   app::SceneSettings scene = read_scene("look = \"classic\"\n[glare]\nbloom_strength = 0.5\n");
-  app::apply_look(scene);
+  app::apply_look(scene, scene.by_hand);
   EXPECT_EQ(scene.glare.bloom_strength, 0.5);
   EXPECT_EQ(scene.glare.streak_strength, 0.2);
   EXPECT_EQ(scene.exposure.key, 0.72);
@@ -30,7 +30,7 @@ TEST(Look, StandsBeforeTheFirstSectionAndLeavesWhatIsSetByHand) {
 
 TEST(Look, CameraChangesNothing) {
   app::SceneSettings scene;
-  app::apply_look(scene);
+  app::apply_look(scene, {});
   for (const app::Parameter& parameter : app::parameters())
     EXPECT_EQ(app::parameter_text(scene, parameter), app::parameter_text({}, parameter)) << parameter.key;
 }
