@@ -25,7 +25,7 @@ std::unique_ptr<FrameTrack> open_track(const Options& options, const Recording& 
   if (options.causal || is_live) return make_tag_track(camera, recording.scene);
   Report tracking;
   const OverlayResult solved =
-      solve_track(*MediaSource::open(recording.footage), camera, recording.scene, range, context.log, tracking);
+      solve_track(*open_footage(recording), camera, recording.scene, range, context.log, tracking);
   report.stages = tracking.stages;
   return make_recorded_track(solved.rows, camera, recording.scene);
 }
@@ -41,7 +41,7 @@ void overlay(const Options& options, Context& context) {
   }
   if (!options.report.empty()) check_output_path(options.report, options.sink.overwrite);
   const Recording recording = open_recording(options.recording, options.overrides);
-  const std::unique_ptr<MediaSource> source = MediaSource::open(recording.footage);
+  const std::unique_ptr<MediaSource> source = open_footage(recording, context.log.warning_handler());
   const CameraModel camera = camera_for_footage(recording, source->info().width_px, source->info().height_px);
   const std::unique_ptr<FrameOutput> output = open_output(options.output, recording.footage, *source, options.sink);
 

@@ -76,6 +76,11 @@ std::vector<Parameter> make_table() {
        ChoiceKind{[](Scene& s) -> std::string& { return s.exposure.mode; }, {"match", "fixed"}}},
       {"exposure.ev", "EV", "Brightens the virtual layer on top of that.",
        RealKind{[](Scene& s) -> double& { return s.exposure.ev; }, -30, 30}},
+      {"exposure.response", "",
+       "The camera's response, where the stream does not say it: a formula, or a curve from OpenCV (`.yaml`, `.xml`), `.csv` or "
+       "`.cube` "
+       "(docs/exposure.md).",
+       PathKind{[](Scene& s) -> std::string& { return s.exposure.response; }, {"footage", "srgb", "linear", "gamma:"}}},
 
       {"glare.enabled", "", "Whether what exceeds the sensor's white spills as bloom and streaks.",
        FlagKind{[](Scene& s) -> bool& { return s.glare.enabled; }}},

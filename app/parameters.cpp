@@ -138,8 +138,8 @@ ParameterValue value_from_text(const Parameter& parameter, const std::string& te
                             [&](const IntegerKind&) -> std::optional<ParameterValue> { return integer_from_text(text); },
                             [&](const FlagKind&) { return flag(); }, [&](const SwitchKind&) { return flag(); },
                             [&](const VectorKind&) { return vector_from_text(text); },
-                            [&](const PathKind&) -> std::optional<ParameterValue> {
-                              if (text.empty()) return std::nullopt;
+                            [&](const PathKind& kind) -> std::optional<ParameterValue> {
+                              if (text.empty() || kind.is_word(text)) return std::nullopt;
                               return std::filesystem::absolute(text).string();
                             },
                             [](const auto&) -> std::optional<ParameterValue> { return std::nullopt; }},
@@ -148,6 +148,11 @@ ParameterValue value_from_text(const Parameter& parameter, const std::string& te
 }
 
 }  // namespace
+
+bool PathKind::is_word(const std::string& text) const {
+  return std::any_of(words.begin(), words.end(),
+                     [&](const std::string& word) { return word.back() == ':' ? text.starts_with(word) : text == word; });
+}
 
 void set_parameter(SceneSettings& settings, const Parameter& parameter, const ParameterValue& value) {
   make_first(settings, parameter);
@@ -198,7 +203,11 @@ std::string expected_text(const Parameter& parameter) {
             return range_text("a whole number", std::to_string(kind.min), std::to_string(kind.max), unit);
           },
           [](const FlagKind&) { return std::string("true or false"); }, [](const TextKind&) { return std::string("text"); },
-          [](const PathKind&) { return std::string("the name of a file"); },
+          [](const PathKind& kind) {
+            std::string words;
+            for (const std::string& word : kind.words) words += '"' + word + (word.back() == ':' ? "2.4" : "") + "\", ";
+            return (words.empty() ? "" : words + "or ") + "the name of a file";
+          },
           [](const ChoiceKind& kind) { return quoted_list(kind.choices); },
           [](const SwitchKind& kind) {
             return std::string(kind.can_be_on ? "\"auto\", true or false" : "\"auto\" or false (true is not supported yet)");

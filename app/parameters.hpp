@@ -33,6 +33,8 @@ struct TextKind {
 };
 struct PathKind {
   Access<std::string> access;  ///< relative to the scene file; on the command line, to the working folder
+  std::vector<std::string> words = {};  ///< that stand for themselves; after one that ends in ':' anything may follow
+  bool is_word(const std::string& text) const;
 };
 struct ChoiceKind {
   Access<std::string> access;

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "app/parameters.hpp"
+#include "app/response_file.hpp"
 #include "app/scene_file.hpp"
 #include "tracking/camera_file.hpp"
 
@@ -108,6 +109,17 @@ Recording open_recording(const std::string& location, const RecordingOverrides& 
   choose_camera(recording, overrides);
   choose_scene(recording, overrides);
   return recording;
+}
+
+std::unique_ptr<MediaSource> open_footage(const Recording& recording, const WarningHandler& warn) {
+  const auto known = [&]() -> std::shared_ptr<const CameraResponse> {
+    const std::string& name = recording.scene.exposure.response;
+    const auto& kind = std::get<PathKind>(find_parameter("exposure.response")->kind);
+    const auto response = load_response(kind.is_word(name) ? name : recording.scene.resolve(name), warn);
+    return response ? std::make_shared<CameraResponse>(*response) : nullptr;
+  };
+  constexpr double kSequenceFps = 24;
+  return MediaSource::open(recording.footage, kSequenceFps, known());
 }
 
 CameraModel camera_for_footage(const Recording& recording, int width_px, int height_px) {

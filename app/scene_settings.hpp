@@ -68,6 +68,7 @@ struct SceneSettings {
   struct Exposure {
     std::string mode = "match";
     double ev = 0;
+    std::string response = "footage";  ///< as app/response_file.hpp says
   } exposure;
 
   render::GlareSettings glare;

@@ -17,6 +17,7 @@
 #include "render/prefilter.hpp"
 #include "render/sh.hpp"
 #include "render/transfer.hpp"
+#include "response_curve.hpp"
 
 namespace catchlight::render {
 
@@ -67,6 +68,7 @@ struct CompositorSettings {
 struct PlateColor {
   TransferFunction transfer = TransferFunction::srgb;
   glm::mat3 plate_from_rec709{1.0f};  ///< linear primaries conversion
+  std::shared_ptr<const ResponseCurve> curve = {};  ///< stands in for `transfer`
 };
 
 /// The camera's part of one frame: exposed linear value = exposure * radiance + black.
