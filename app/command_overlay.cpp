@@ -29,7 +29,7 @@ std::unique_ptr<FrameTrack> open_track(const Options& options, const Recording& 
   const FrameRange posed = tone_settings(recording.scene).enabled ? FrameRange{.end = range.end} : range;
   Report tracking;
   const OverlayResult solved =
-      solve_track(*MediaSource::open(recording.footage), camera, recording.scene, posed, context.log, tracking);
+      solve_track(*open_footage(recording), camera, recording.scene, posed, context.log, tracking);
   report.stages = tracking.stages;
   return make_recorded_track(solved.rows, camera, recording.scene);
 }
@@ -45,7 +45,7 @@ void overlay(const Options& options, Context& context) {
   }
   if (!options.report.empty()) check_output_path(options.report, options.sink.overwrite);
   const Recording recording = open_recording(options.recording, options.overrides);
-  const std::unique_ptr<MediaSource> source = MediaSource::open(recording.footage);
+  const std::unique_ptr<MediaSource> source = open_footage(recording, context.log.warning_handler());
   const CameraModel camera = camera_for_footage(recording, source->info().width_px, source->info().height_px);
   const std::unique_ptr<FrameOutput> output = open_output(options.output, recording.footage, *source, options.sink);
 

@@ -47,7 +47,7 @@ void check_extension(const std::string& output) {
 
 /// The frame with the pose that `overlay` would draw it at.
 TrackedFrame tracked_frame(const Options& options, const Recording& recording, const CameraModel& camera, Log& log) {
-  const auto source = MediaSource::open(recording.footage);
+  const auto source = open_footage(recording, log.warning_handler());
   if (source->info().is_live)
     throw UsageError(recording.footage + ": a reference needs recorded footage, not a camera or stream");
   std::vector<TrackRow> rows;
@@ -55,7 +55,7 @@ TrackedFrame tracked_frame(const Options& options, const Recording& recording, c
     rows = read_track_file(options.track_in);
   } else {
     Report report;
-    rows = solve_track(*MediaSource::open(recording.footage), camera, recording.scene, {options.frame, options.frame + 1}, log,
+    rows = solve_track(*open_footage(recording), camera, recording.scene, {options.frame, options.frame + 1}, log,
                        report)
                .rows;
   }

@@ -33,7 +33,7 @@ void track(const Options& options, Context& context) {
   check_output_path(options.output, options.overwrite);
   if (!options.report.empty()) check_output_path(options.report, options.overwrite);
   const Recording recording = open_recording(options.recording, options.overrides);
-  const std::unique_ptr<MediaSource> source = MediaSource::open(recording.footage);
+  const std::unique_ptr<MediaSource> source = open_footage(recording, context.log.warning_handler());
   const CameraModel camera = camera_for_footage(recording, source->info().width_px, source->info().height_px);
 
   Report report;

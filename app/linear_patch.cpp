@@ -1,5 +1,6 @@
 #include "app/linear_patch.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -9,21 +10,22 @@ namespace catchlight::app {
 namespace {
 
 template <typename Code>
-void append_linear(const render::Plate& plate, TransferFunction transfer, double full_scale, std::vector<float>& linear) {
+void append_linear(const render::Plate& plate, const render::PlateColor& color, double full_scale, std::vector<float>& linear) {
   const std::size_t count = plate.pixels.size() / sizeof(Code);
   linear.resize(count);
-  std::vector<float> table;
-  if constexpr (sizeof(Code) == 1) {
-    table.resize(256);
-    for (int code = 0; code < 256; ++code) table[code] = static_cast<float>(linear_from_code(transfer, code / full_scale));
-  }
+  std::array<std::vector<float>, 3> tables;
+  if constexpr (sizeof(Code) == 1)
+    for (int channel = 0; channel < 3; ++channel)
+      for (int code = 0; code < 256; ++code)
+        tables[static_cast<std::size_t>(channel)].push_back(
+            static_cast<float>(linear_from_code(color, code / full_scale, channel)));
   for (std::size_t i = 0; i < count; ++i) {
     Code code;
     std::memcpy(&code, &plate.pixels[i * sizeof(Code)], sizeof(Code));
     if constexpr (sizeof(Code) == 1)
-      linear[i] = table[code];
+      linear[i] = tables[i % 3][code];
     else
-      linear[i] = static_cast<float>(linear_from_code(transfer, static_cast<double>(code) / full_scale));
+      linear[i] = static_cast<float>(linear_from_code(color, static_cast<double>(code) / full_scale, static_cast<int>(i % 3)));
   }
 }
 
@@ -35,13 +37,13 @@ std::vector<float> linear_rgb(const Frame& frame, const PixelRect& rect) {
   std::vector<float> linear;
   switch (plate.format) {
     case render::Plate::Format::rgb_u8:
-      append_linear<std::uint8_t>(plate, color.transfer, 255, linear);
+      append_linear<std::uint8_t>(plate, color, 255, linear);
       break;
     case render::Plate::Format::rgb_u16:
-      append_linear<std::uint16_t>(plate, color.transfer, 65535, linear);
+      append_linear<std::uint16_t>(plate, color, 65535, linear);
       break;
     case render::Plate::Format::rgb_f32:
-      append_linear<float>(plate, color.transfer, 1, linear);
+      append_linear<float>(plate, color, 1, linear);
       break;
   }
   if (color.plate_from_rec709 != glm::mat3(1.0f)) {
@@ -56,7 +58,17 @@ std::vector<float> linear_rgb(const Frame& frame, const PixelRect& rect) {
 
 glm::dvec3 clipped_linear(const Frame& frame) {
   if (frame.is_float()) return glm::dvec3(std::numeric_limits<double>::infinity());
-  return glm::dvec3(linear_from_code(frame.color().transfer, 250.0 / 255));
+  glm::dvec3 clipped;
+  for (int channel = 0; channel < 3; ++channel) clipped[channel] = linear_from_code(frame.color(), 250.0 / 255, channel);
+  return clipped;
+}
+
+double linear_from_code(const render::PlateColor& color, double code, int channel) {
+  return color.curve ? color.curve->linear_from_code(code, channel) : catchlight::linear_from_code(color.transfer, code);
+}
+
+double code_from_linear(const render::PlateColor& color, double linear, int channel) {
+  return color.curve ? color.curve->code_from_linear(linear, channel) : code_from_linear(color.transfer, linear);
 }
 
 double code_from_linear(TransferFunction transfer, double linear) {

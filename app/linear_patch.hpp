@@ -16,4 +16,8 @@ glm::dvec3 clipped_linear(const Frame& frame);
 /// The inverse of linear_from_code(); light below 0 that has no code there (all but sRGB and linear) gets black's.
 double code_from_linear(TransferFunction transfer, double linear);
 
+/// Both ways by the footage's response, formula or curve.
+double linear_from_code(const render::PlateColor& color, double code, int channel);
+double code_from_linear(const render::PlateColor& color, double linear, int channel);
+
 }  // namespace catchlight::app

@@ -11,8 +11,8 @@
 #include "app/lens_view.hpp"
 #include "app/look.hpp"
 #include "app/media/full_color.hpp"
+#include "app/parameters.hpp"
 #include "app/progress.hpp"
-#include "render/aperture_picture.hpp"
 #include "render/tone_adaptation.hpp"
 
 namespace catchlight::app {
@@ -217,8 +217,7 @@ Stage build_stage(const SceneSettings& scene, Log& log, Report& report) {
   report.plan = stage.built.plan;
   render::CompositorSettings settings;
   settings.glare = scene.glare;
-  if (!render::is_drawn_aperture(scene.glare.aperture) && !scene.glare.aperture.empty())
-    settings.glare.aperture = scene.resolve(scene.glare.aperture);
+  settings.glare.aperture = word_or_path(scene, "glare.aperture");
   settings.look = compositor_look(scene);
   settings.tone = tone_settings(scene);
   settings.samples = scene.quality.samples;

@@ -89,6 +89,11 @@ std::vector<Parameter> make_table() {
        RealKind{[](Scene& s) -> double& { return s.exposure.adapt_bright_s; }, 0, 600}},
       {"exposure.adapt_dark_s", "s", "Of \"auto\": time constant of adapting to the dark.",
        RealKind{[](Scene& s) -> double& { return s.exposure.adapt_dark_s; }, 0, 600}},
+      {"exposure.response", "",
+       "The camera's response, where the stream does not say it: a formula, or a curve from OpenCV (`.yaml`, `.xml`), `.csv` or "
+       "`.cube` "
+       "(docs/exposure.md).",
+       PathKind{[](Scene& s) -> std::string& { return s.exposure.response; }, {"footage", "srgb", "linear", "gamma:2.4"}}},
 
       {"glare.enabled", "", "Whether what exceeds the sensor's white spills as bloom and streaks.",
        FlagKind{[](Scene& s) -> bool& { return s.glare.enabled; }}},
@@ -125,30 +130,31 @@ std::vector<Parameter> make_table() {
        "\"fast\": bloom and streaks. \"fft\": by FFT at full resolution, what glare.aperture diffracts; seconds a frame.",
        ChoiceKind{[](Scene& s) -> std::string& { return s.glare.method; }, {"fast", "fft"}}},
       {"glare.aperture", "",
-       "With \"fft\": `blades:N`, `eyelashes`, `dust`, `circle`, or the file of a square picture, white where light passes; "
-       "none: the "
-       "bloom and streaks of \"fast\", convolved.",
-       PathKind{[](Scene& s) -> std::string& { return s.glare.aperture; },
-                [](const std::string& name) { return name.empty() || render::is_drawn_aperture(name); }}},
+       "With \"fft\": what stands in the light's way, drawn, or a square picture, white where light passes; \"none\": the bloom "
+       "and "
+       "streaks of \"fast\", convolved.",
+       PathKind{[](Scene& s) -> std::string& { return s.glare.aperture; }, {"none", "blades:6", "eyelashes", "dust", "circle"}}},
       {"glare.aperture_mm", "mm", "Width of that picture: half of it makes the glare twice as wide.",
        RealKind{[](Scene& s) -> double& { return s.glare.aperture_mm; }, 0.05, 100}},
       {"glare.aperture_strength", "",
        "Share of what the aperture diffracts that is added, instead of bloom_strength and streak_strength; 1: all.",
        RealKind{[](Scene& s) -> double& { return s.glare.aperture_strength; }, 0, 1000}},
 
-      {"lens.noise", "", "Gives the virtual layer the footage's grain, as measured on the tag; \"auto\": where it is more than rounding's own.",
+      {"lens.noise", "",
+       "Gives the virtual layer the footage's grain, as measured on the tag; \"auto\": where it is more than rounding's own.",
        SwitchKind{[](Scene& s) -> Switch& { return s.lens.noise; }}},
-      {"lens.motion_blur", "", "Blurs the virtual layer along the tag's motion; \"auto\": where the tag's own edges are blurred along it.",
+      {"lens.motion_blur", "",
+       "Blurs the virtual layer along the tag's motion; \"auto\": where the tag's own edges are blurred along it.",
        SwitchKind{[](Scene& s) -> Switch& { return s.lens.motion_blur; }}},
       {"lens.defocus", "", "Blurs the virtual layer as the tag's edges are blurred, apart from motion; \"auto\": where they are.",
        SwitchKind{[](Scene& s) -> Switch& { return s.lens.defocus; }}},
       {"lens.distortion", "", "Bends the virtual layer as the camera file says; \"auto\" is on.",
        SwitchKind{[](Scene& s) -> Switch& { return s.lens.distortion; }}},
 
-      {"lens.shutter", "",
-       "Share of the frame's interval that the shutter is open, for motion blur; 0: measured on the tag.",
+      {"lens.shutter", "", "Share of the frame's interval that the shutter is open, for motion blur; 0: measured on the tag.",
        RealKind{[](Scene& s) -> double& { return s.lens.shutter; }, 0, 1}},
-      {"lens.vignetting", "", "Darkens the virtual layer towards the corners as the camera file's `vignetting` says; \"auto\" is on.",
+      {"lens.vignetting", "",
+       "Darkens the virtual layer towards the corners as the camera file's `vignetting` says; \"auto\" is on.",
        SwitchKind{[](Scene& s) -> Switch& { return s.lens.vignetting; }}},
       {"lens.chroma_subsampling", "",
        "Gives the virtual layer the footage's own resolution of colour; false: all that the output can hold.",

@@ -70,7 +70,7 @@ struct Store {
   bool operator()(const TextKind& kind) const { return store_as<std::string>(kind.access); }
   bool operator()(const PathKind& kind) const {
     const auto* path = std::get_if<std::string>(&value);
-    return path && (!path->empty() || (kind.is_name && kind.is_name(*path))) && store_as<std::string>(kind.access);
+    return path && !path->empty() && store_as<std::string>(kind.access);
   }
   bool operator()(const ChoiceKind& kind) const {
     const auto* text = std::get_if<std::string>(&value);
@@ -139,7 +139,7 @@ ParameterValue value_from_text(const Parameter& parameter, const std::string& te
                             [&](const FlagKind&) { return flag(); }, [&](const SwitchKind&) { return flag(); },
                             [&](const VectorKind&) { return vector_from_text(text); },
                             [&](const PathKind& kind) -> std::optional<ParameterValue> {
-                              if (text.empty() || (kind.is_name && kind.is_name(text))) return std::nullopt;
+                              if (text.empty() || kind.is_word(text)) return std::nullopt;
                               return std::filesystem::absolute(text).string();
                             },
                             [](const auto&) -> std::optional<ParameterValue> { return std::nullopt; }},
@@ -148,6 +148,13 @@ ParameterValue value_from_text(const Parameter& parameter, const std::string& te
 }
 
 }  // namespace
+
+bool PathKind::is_word(const std::string& text) const {
+  return std::any_of(words.begin(), words.end(), [&](const std::string& word) {
+    const std::size_t colon = word.find(':');
+    return colon == std::string::npos ? text == word : text.starts_with(word.substr(0, colon + 1));
+  });
+}
 
 void set_parameter(SceneSettings& settings, const Parameter& parameter, const ParameterValue& value) {
   make_first(settings, parameter);
@@ -189,21 +196,31 @@ std::string parameter_text(const SceneSettings& settings, const Parameter& param
                     parameter.kind);
 }
 
+std::string word_or_path(const SceneSettings& settings, const std::string& key) {
+  const Parameter& parameter = *find_parameter(key);
+  const std::string value = parameter_text(settings, parameter);
+  return std::get<PathKind>(parameter.kind).is_word(value) ? value : settings.resolve(value);
+}
+
 std::string expected_text(const Parameter& parameter) {
   const std::string& unit = parameter.unit;
   return std::visit(
-      Overloaded{
-          [&](const RealKind& kind) { return range_text("a number", number_text(kind.min), number_text(kind.max), unit); },
-          [&](const IntegerKind& kind) {
-            return range_text("a whole number", std::to_string(kind.min), std::to_string(kind.max), unit);
-          },
-          [](const FlagKind&) { return std::string("true or false"); }, [](const TextKind&) { return std::string("text"); },
-          [](const PathKind&) { return std::string("the name of a file"); },
-          [](const ChoiceKind& kind) { return quoted_list(kind.choices); },
-          [](const SwitchKind&) { return std::string("\"auto\", true or false"); },
-          [&](const VectorKind& kind) {
-            return range_text("three numbers", number_text(kind.min), number_text(kind.max), unit);
-          }},
+      Overloaded{[&](const RealKind& kind) { return range_text("a number", number_text(kind.min), number_text(kind.max), unit); },
+                 [&](const IntegerKind& kind) {
+                   return range_text("a whole number", std::to_string(kind.min), std::to_string(kind.max), unit);
+                 },
+                 [](const FlagKind&) { return std::string("true or false"); },
+                 [](const TextKind&) { return std::string("text"); },
+                 [](const PathKind& kind) {
+                   std::string words;
+                   for (const std::string& word : kind.words) words += '"' + word + "\", ";
+                   return (words.empty() ? "" : words + "or ") + "the name of a file";
+                 },
+                 [](const ChoiceKind& kind) { return quoted_list(kind.choices); },
+                 [](const SwitchKind&) { return std::string("\"auto\", true or false"); },
+                 [&](const VectorKind& kind) {
+                   return range_text("three numbers", number_text(kind.min), number_text(kind.max), unit);
+                 }},
       parameter.kind);
 }
 

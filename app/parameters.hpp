@@ -32,8 +32,9 @@ struct TextKind {
   Access<std::string> access;
 };
 struct PathKind {
-  Access<std::string> access;                     ///< relative to the scene file; on the command line, to the working folder
-  bool (*is_name)(const std::string&) = nullptr;  ///< of something else than a file, also the empty text
+  Access<std::string> access;           ///< relative to the scene file; on the command line, to the working folder
+  std::vector<std::string> words = {};  ///< that stand for themselves; of one with a colon, what follows it is an example
+  bool is_word(const std::string& text) const;
 };
 struct ChoiceKind {
   Access<std::string> access;
@@ -74,6 +75,9 @@ void set_parameter_from_text(SceneSettings& settings, const std::string& key, co
 
 /// The present value, as set_parameter_from_text reads it.
 std::string parameter_text(const SceneSettings& settings, const Parameter& parameter);
+
+/// The value of a path parameter as the file system needs it; one of its words as it is.
+std::string word_or_path(const SceneSettings& settings, const std::string& key);
 
 /// "number from 0 to 1 in m", "\"match\" or \"fixed\"", ...
 std::string expected_text(const Parameter& parameter);

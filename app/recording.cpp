@@ -4,6 +4,7 @@
 
 #include "app/look.hpp"
 #include "app/parameters.hpp"
+#include "app/response_file.hpp"
 #include "app/scene_file.hpp"
 #include "tracking/camera_file.hpp"
 
@@ -115,6 +116,15 @@ Recording open_recording(const std::string& location, const RecordingOverrides& 
   choose_camera(recording, overrides);
   choose_scene(recording, overrides);
   return recording;
+}
+
+std::unique_ptr<MediaSource> open_footage(const Recording& recording, const WarningHandler& warn) {
+  const auto known = [&]() -> std::shared_ptr<const CameraResponse> {
+    const auto response = load_response(word_or_path(recording.scene, "exposure.response"), warn);
+    return response ? std::make_shared<CameraResponse>(*response) : nullptr;
+  };
+  constexpr double kSequenceFps = 24;
+  return MediaSource::open(recording.footage, kSequenceFps, known());
 }
 
 CameraModel camera_for_footage(const Recording& recording, int width_px, int height_px) {

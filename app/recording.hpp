@@ -1,11 +1,13 @@
 // A recording: footage, the camera that took it and the scene to put into it.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "app/media/source.hpp"
 #include "app/scene_settings.hpp"
 #include "catchlight.hpp"
 
@@ -33,6 +35,9 @@ struct Recording {
 /// with the scene and the camera (or field of view) among the overrides. The footage itself is not opened. Throws Error: what is
 /// missing and how to supply it; UsageError: overrides that cannot be.
 Recording open_recording(const std::string& location, const RecordingOverrides& overrides = {});
+
+/// The footage, read with the camera's response where the scene names one. Throws Error as MediaSource::open and load_response do.
+std::unique_ptr<MediaSource> open_footage(const Recording& recording, const WarningHandler& warn = {});
 
 /// The camera of a recording whose footage turned out to be of this size. Throws Error naming both sizes where the camera file
 /// has another.

@@ -87,7 +87,7 @@ void write_reference_png(const std::string& path, const Image& exposed_linear, c
       const float* value = exposed_linear.pixel(x, y);
       const glm::vec3 light = color.plate_from_rec709 * glm::vec3(value[0], value[1], value[2]);
       for (int c = 0; c < 3; ++c) {
-        const double code = std::round(std::clamp(code_from_linear(color.transfer, light[c]), 0.0, 1.0) * full_scale);
+        const double code = std::round(std::clamp(code_from_linear(color, light[c], c), 0.0, 1.0) * full_scale);
         const int bgr = 3 * x + 2 - c;
         if (is_8_bit)
           picture.ptr<std::uint8_t>(y)[bgr] = static_cast<std::uint8_t>(code);

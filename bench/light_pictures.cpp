@@ -72,7 +72,7 @@ class Studio {
   explicit Studio(const std::string& location) : recording_(open_recording(location)) {
     recording_.scene.glare.enabled = false;  // the truth has none
     stage_ = build_stage(recording_.scene, log_, report_);
-    const std::unique_ptr<MediaSource> source = MediaSource::open(recording_.footage);
+    const std::unique_ptr<MediaSource> source = open_footage(recording_);
     camera_ = camera_for_footage(recording_, source->info().width_px, source->info().height_px);
     rows_ = solve_track(*source, camera_, recording_.scene, range_, log_, report_).rows;
     on_tag_ = stage_.built.still_irradiance_over_pi;
@@ -98,7 +98,7 @@ class Studio {
     stage_.built.still_irradiance_over_pi = on_tag_ * part.share;
     LayersOutput output;
     const std::unique_ptr<FrameTrack> track = make_recorded_track(rows_, camera_, recording_.scene);
-    run_overlay(*MediaSource::open(recording_.footage), *track, stage_, recording_.scene, camera_, output, range_, log_, report_);
+    run_overlay(*open_footage(recording_), *track, stage_, recording_.scene, camera_, output, range_, log_, report_);
     if (!output.layers) throw Error(recording_.name + ": no tag in frame " + std::to_string(kFrame));
     return exposed(*output.layers, part.share);
   }

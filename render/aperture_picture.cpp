@@ -75,10 +75,6 @@ Image shrunk(const Image& image, int size_px) {
 
 }  // namespace
 
-bool is_drawn_aperture(const std::string& name) {
-  return name == "circle" || name == "eyelashes" || name == "dust" || name.starts_with(kBlades);
-}
-
 AperturePicture aperture_picture(const std::string& name) {
   if (name == "circle") return {kEndless_px, circle_aperture};
   if (name == "eyelashes") return {kEndless_px, eyelash_aperture};

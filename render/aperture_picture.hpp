@@ -8,9 +8,6 @@
 
 namespace catchlight::render {
 
-/// Whether aperture_picture() draws `name` itself; anything else is a file's name.
-bool is_drawn_aperture(const std::string& name);
-
 struct AperturePicture {
   int most_px;                             ///< a file's own size; what is drawn has no end
   std::function<Image(int size_px)> draw;  ///< square, one channel, 0 (opaque) to 1; size_px from 1 to most_px

@@ -29,8 +29,9 @@ PlateFormat describe(Plate::Format format) {
   throw Error("unknown plate format");
 }
 
-int mode_of(TransferFunction transfer) {
-  switch (transfer) {
+int mode_of(const PlateColor& color) {
+  if (color.curve) return TRANSFER_CURVE;
+  switch (color.transfer) {
     case TransferFunction::srgb:
       return TRANSFER_SRGB;
     case TransferFunction::linear:
@@ -103,12 +104,23 @@ void CompositePass::upload(const Plate& plate) {
   changed_code_ = format.changed_code;
 }
 
+/// The channels' tables one after the other.
+void CompositePass::upload_curve(const std::shared_ptr<const ResponseCurve>& curve) {
+  if (curve && curve != uploaded_curve_) {
+    std::vector<float> light;
+    for (const std::vector<float>& channel : curve->light()) light.insert(light.end(), channel.begin(), channel.end());
+    response_ = make_buffer("response", std::span<const float>(light));
+    uploaded_curve_ = curve;
+  }
+  if (curve) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_RESPONSE, response_.id());
+}
+
 void CompositePass::update_uniforms(const FrameView& view, const VirtualLayer& layer, bool as_light) {
   shader_interface::CompositeUniforms block{};
   block.output_rect = as_vector(rect_);
   block.virtual_rect = as_vector(layer.rect);
   block.plate_rect = as_vector(plate_rect_);
-  block.modes = {mode_of(view.color.transfer), clips_ ? 1 : 0, layer.pixel_glare ? 2 : layer.glare ? 1 : 0, as_light ? 1 : 0};
+  block.modes = {mode_of(view.color), clips_ ? 1 : 0, layer.pixel_glare ? 2 : layer.glare ? 1 : 0, as_light ? 1 : 0};
   block.black = glm::vec4(view.black, 0);
   block.changed_code.x = changed_code_;
   const Vignetting vignetting = vignetting_of(view);
@@ -122,6 +134,7 @@ void CompositePass::update_uniforms(const FrameView& view, const VirtualLayer& l
   if (layer.glare && !layer.pixel_glare) block.glare_from_frame = layer.glare->texels_from_frame();
   uniforms_.update(block);
   uniforms_.bind(BINDING_COMPOSITE);
+  upload_curve(view.color.curve);
 }
 
 void CompositePass::draw_plate_light(const FrameView& view) {

@@ -46,12 +46,15 @@ class CompositePass {
  private:
   static constexpr int kOutputs = 5;
 
+  void upload_curve(const std::shared_ptr<const ResponseCurve>& curve);
   void update_uniforms(const FrameView& view, const VirtualLayer& layer, bool as_light);
 
   GlProgram program_, plate_light_program_;
   GlVertexArray no_attributes_;
   UniformBuffer<shader_interface::CompositeUniforms> uniforms_{"composite"};
   GlTexture plate_, plate_light_, black_;
+  GlBuffer response_;
+  std::shared_ptr<const ResponseCurve> uploaded_curve_;
   GlFramebuffer plate_light_framebuffer_;
   GLenum plate_format_ = 0;
   int plate_width_ = 0, plate_height_ = 0;

@@ -19,6 +19,7 @@
 #include "render/sh.hpp"
 #include "render/tone_curve.hpp"
 #include "render/transfer.hpp"
+#include "response_curve.hpp"
 
 namespace catchlight::render {
 
@@ -57,14 +58,14 @@ struct GlareSettings {
   double streak_attenuation = 0.92;  ///< a of a^k, per pixel at a frame height of 480 px
   double streak_dispersion = 0;      ///< 1: a streak is as long as its colour's wavelength says; 0: all alike
   double streak_rotation_deg = 45;
-  double emitter_strength = 1;   ///< of what the object's materials emit, against what else is as bright
-  int emitter_directions = 0;    ///< streaks of what they emit; 0: as of the rest
-  int streak_passes = 0;         ///< of four samples each; 0: as many as can be seen
-  int grid_rows = 240;           ///< resolution that glare is computed at; texels are never smaller than pixels
-  std::string method = "fast";   ///< or "fft": of an aperture, as render/fft_glare.hpp says
-  std::string aperture;          ///< what aperture_picture() takes
-  double aperture_mm = 2;        ///< width of its picture
-  double aperture_strength = 1;  ///< 1: as much as the aperture diffracts
+  double emitter_strength = 1;    ///< of what the object's materials emit, against what else is as bright
+  int emitter_directions = 0;     ///< streaks of what they emit; 0: as of the rest
+  int streak_passes = 0;          ///< of four samples each; 0: as many as can be seen
+  int grid_rows = 240;            ///< resolution that glare is computed at; texels are never smaller than pixels
+  std::string method = "fast";    ///< or "fft": of an aperture, as render/fft_glare.hpp says
+  std::string aperture = "none";  ///< or what aperture_picture() takes
+  double aperture_mm = 2;         ///< width of its picture
+  double aperture_strength = 1;   ///< 1: as much as the aperture diffracts
 };
 
 /// `classic`: bloom and streaks of the whole picture as in render/classic_look.hpp, instead of those of the object's highlights.
@@ -83,7 +84,8 @@ struct CompositorSettings {
 /// How the footage codes light.
 struct PlateColor {
   TransferFunction transfer = TransferFunction::srgb;
-  glm::mat3 plate_from_rec709{1.0f};  ///< linear primaries conversion
+  glm::mat3 plate_from_rec709{1.0f};                ///< linear primaries conversion
+  std::shared_ptr<const ResponseCurve> curve = {};  ///< stands in for `transfer`
 };
 
 /// The camera's part of one frame: exposed linear value = exposure * radiance + black.

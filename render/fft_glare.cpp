@@ -72,7 +72,7 @@ std::optional<Image> excess_of(const Image& object, const PixelRect& rect, int f
 }
 
 FftGlare::FftGlare(const GlareSettings& settings) : settings_(settings) {
-  if (!settings.aperture.empty()) picture_ = aperture_picture(settings.aperture);
+  if (settings.aperture != "none") picture_ = aperture_picture(settings.aperture);
 }
 
 Image FftGlare::aperture_kernel(const CameraModel& camera, double focal_px) const {

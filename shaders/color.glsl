@@ -32,6 +32,29 @@ vec3 hlg_from_linear(vec3 light) {
   return mix(0.17883277 * log(max(12.0 * scene - 0.28466892, 1e-6)) + 0.55991073, sqrt(3.0 * scene), lessThanEqual(scene, vec3(1.0 / 12.0)));
 }
 
+// response_curve.hpp's ResponseCurve: the channels' tables one after the other.
+layout(std430, binding = BINDING_RESPONSE) readonly buffer ResponseBlock { float response_light[]; };
+
+float linear_from_curve(float code, int channel) {
+  int steps = response_light.length() / 3 - 1, first = channel * (steps + 1);
+  float place = code * float(steps);
+  int at = clamp(int(place), 0, steps - 1);
+  float from = response_light[first + at], to = response_light[first + at + 1];
+  return from + (place - float(at)) * (to - from);
+}
+
+// The last step that begins at or below the light, by bisection: light rises from code to code.
+float curve_from_linear(float light, int channel) {
+  int steps = response_light.length() / 3 - 1, first = channel * (steps + 1);
+  int low = 0, high = steps;
+  while (high - low > 1) {
+    int middle = (low + high) / 2;
+    if (response_light[first + middle] <= light) low = middle; else high = middle;
+  }
+  float from = response_light[first + low], to = response_light[first + high];
+  return (float(low) + (light - from) / (to - from)) / float(steps);
+}
+
 vec3 linear_from_code(int transfer, vec3 code) {
   switch (transfer) {
     case TRANSFER_SRGB: return linear_from_srgb(code);
@@ -39,6 +62,7 @@ vec3 linear_from_code(int transfer, vec3 code) {
     case TRANSFER_GAMMA28: return pow(max(code, 0.0), vec3(2.8));
     case TRANSFER_PQ: return linear_from_pq(code);
     case TRANSFER_HLG: return linear_from_hlg(code);
+    case TRANSFER_CURVE: return vec3(linear_from_curve(code.r, 0), linear_from_curve(code.g, 1), linear_from_curve(code.b, 2));
     default: return code;
   }
 }
@@ -50,6 +74,7 @@ vec3 code_from_linear(int transfer, vec3 light) {
     case TRANSFER_GAMMA28: return pow(max(light, 0.0), vec3(1.0 / 2.8));
     case TRANSFER_PQ: return pq_from_linear(light);
     case TRANSFER_HLG: return hlg_from_linear(light);
+    case TRANSFER_CURVE: return vec3(curve_from_linear(light.r, 0), curve_from_linear(light.g, 1), curve_from_linear(light.b, 2));
     default: return light;
   }
 }

@@ -40,6 +40,7 @@ using glm::vec4;
 #define BINDING_MATERIALS 4
 #define BINDING_DIRECT_LIGHT 5
 #define BINDING_LUMINANCES 0
+#define BINDING_RESPONSE 6
 
 // Textures
 #define TEXTURE_PROBE 0
@@ -72,6 +73,7 @@ using glm::vec4;
 #define TRANSFER_GAMMA28 3
 #define TRANSFER_PQ 4
 #define TRANSFER_HLG 5
+#define TRANSFER_CURVE 6  // the table in BINDING_RESPONSE
 
 // The camera and its exposure.
 UNIFORM_BLOCK(ViewUniforms, BINDING_VIEW) {

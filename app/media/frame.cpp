@@ -1,5 +1,9 @@
 #include "app/media/frame.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "app/media/color_tags.hpp"
 #include "app/media/composite_writer.hpp"
 #include "app/media/convert.hpp"
@@ -74,12 +78,12 @@ bool has_plain_luma(const PixelLayout& layout) {
 // 8-bit luma of one pixel of a frame that has no such plane; see Frame::luma().
 class LumaMaker {
  public:
-  LumaMaker(const AVFrame& picture, const PixelLayout& layout)
+  LumaMaker(const AVFrame& picture, const PixelLayout& layout, bool is_linear)
       : layout_(layout),
         first_(picture, layout, 0),
         second_(picture, layout, layout.model == ColorModel::rgb ? 1 : 0),
         third_(picture, layout, layout.model == ColorModel::rgb ? 2 : 0),
-        linear_(picture.color_trc == AVCOL_TRC_LINEAR),
+        linear_(is_linear),
         // Limited-range codes of any depth are the 8-bit ones, shifted; full-range codes fill their depth.
         scale_(is_full_range(picture, layout) ? 255.0 / layout.max_code() : 1.0 / (1 << (layout.depth() - 8))) {}
 
@@ -105,10 +109,26 @@ class LumaMaker {
   double scale_;
 };
 
+/// Luma codes of a curve as sRGB's, so that tracking finds edges in the middle of light. Scaled where the curve goes beyond
+/// white, and cut at twice white, where a tag is too bright to be tracked well anyway. Luma is nearest to green.
+void recode(std::vector<std::uint8_t>& luma, const ResponseCurve& curve, const tracking::LumaView& coded) {
+  constexpr int kGreen = 1;
+  const double scale = std::clamp(curve.linear_from_code(1, kGreen), 1.0, 2.0);
+  std::array<std::uint8_t, 256> table;
+  for (int code = 0; code < 256; ++code) {
+    const double light =
+        curve.linear_from_code((code - coded.black_code) / (coded.white_code - coded.black_code), kGreen) / scale;
+    table[static_cast<std::size_t>(code)] =
+        static_cast<std::uint8_t>(std::lround(255 * srgb_from_linear(std::clamp(light, 0.0, 1.0))));
+  }
+  for (std::uint8_t& code : luma) code = table[code];
+}
+
 }  // namespace
 
-Frame::Frame(std::shared_ptr<const AVFrame> picture, std::int64_t number, double time_s)
-    : picture_(std::move(picture)), number_(number), time_s_(time_s) {
+Frame::Frame(std::shared_ptr<const AVFrame> picture, std::int64_t number, double time_s,
+             std::shared_ptr<const CameraResponse> response)
+    : picture_(std::move(picture)), number_(number), time_s_(time_s), response_(std::move(response)) {
   layout_of(*picture_);
 }
 
@@ -132,21 +152,31 @@ tracking::LumaView Frame::luma() const {
     view.black_code = 16;
     view.white_code = 235;
   }
-  view.transfer = color().transfer;
+  const render::PlateColor color = this->color();
+  const bool is_linear = color.transfer == TransferFunction::linear && !color.curve;
+  view.transfer = color.transfer;
   if (layout.is_float && view.transfer == TransferFunction::linear) view.transfer = TransferFunction::srgb;
-  if (has_plain_luma(layout)) {
+  const bool has_plane = has_plain_luma(layout);
+  if (has_plane) {
     view.data = picture_->data[layout.components[0].plane];
     view.stride = picture_->linesize[layout.components[0].plane];
-    return view;
+    if (!color.curve) return view;
   }
-  if (!made_luma_) {
-    const LumaMaker luma_at(*picture_, layout);
+  if (!made_luma_ && has_plane) {
+    made_luma_ = std::make_shared<std::vector<std::uint8_t>>();
+    for (int y = 0; y < height_px(); ++y)
+      made_luma_->insert(made_luma_->end(), view.data + y * view.stride, view.data + y * view.stride + width_px());
+    recode(*made_luma_, *color.curve, view);
+  } else if (!made_luma_) {
+    const LumaMaker luma_at(*picture_, layout, is_linear);
     made_luma_ = std::make_shared<std::vector<std::uint8_t>>();
     made_luma_->reserve(static_cast<std::size_t>(width_px()) * static_cast<std::size_t>(height_px()));
     for (int y = 0; y < height_px(); ++y) {
       for (int x = 0; x < width_px(); ++x) made_luma_->push_back(luma_at(x, y));
     }
+    if (color.curve) recode(*made_luma_, *color.curve, view);
   }
+  if (color.curve) view.black_code = 0, view.white_code = 255, view.transfer = TransferFunction::srgb;
   view.data = made_luma_->data();
   view.stride = width_px();
   return view;
@@ -161,7 +191,9 @@ render::Plate Frame::rgb(const PixelRect& rect) const {
 }
 
 render::PlateColor Frame::color() const {
-  return plate_color(*picture_);
+  render::PlateColor color = plate_color(*picture_);
+  if (response_) color.transfer = response_->transfer, color.curve = response_->curve;
+  return color;
 }
 
 glm::ivec2 Frame::color_block_shift() const {
@@ -177,7 +209,7 @@ Frame Frame::with_composite(const render::Composite& composite) const {
   check_ffmpeg(av_frame_copy(changed.get(), picture_.get()), "cannot copy a frame");
   const render::Plate plate = layout.is_subsampled() ? rgb(blocks_of(layout, rect, width_px(), height_px())) : render::Plate{};
   write_composite(*changed, layout, composite, plate);
-  return {std::shared_ptr<const AVFrame>(std::move(changed)), number_, time_s_};
+  return {std::shared_ptr<const AVFrame>(std::move(changed)), number_, time_s_, response_};
 }
 
 }  // namespace catchlight::app

@@ -15,7 +15,9 @@ namespace catchlight::app {
 /// Shares the decoder's samples; copies are cheap. Everything is in display orientation (rotation metadata already applied).
 class Frame {
  public:
-  Frame(std::shared_ptr<const AVFrame> picture, std::int64_t number, double time_s);
+  /// `response` stands in for what the stream declares.
+  Frame(std::shared_ptr<const AVFrame> picture, std::int64_t number, double time_s,
+        std::shared_ptr<const CameraResponse> response = {});
 
   std::int64_t number() const { return number_; }  ///< index in a video from 0; the file's own number in a sequence
   double time_s() const { return time_s_; }
@@ -25,14 +27,14 @@ class Frame {
   bool is_float() const;  ///< codes that do not end at 1
 
   /// The luma plane as it is where it is 8-bit YUV or grey; else made once: deeper planes rounded to 8 bits, RGB weighted by Rec.
-  /// 709 on codes, float linear frames coded as sRGB first.
+  /// 709 on codes, float linear frames coded as sRGB first. Where the response is a curve, its light is coded as sRGB.
   tracking::LumaView luma() const;
 
   /// RGB codes of a part of the frame, by swscale with the stream's own matrix and range, accurate rounding and full chroma
   /// interpolation: the same values as converting the whole frame.
   render::Plate rgb(const PixelRect& rect) const;
 
-  /// The transfer function and primaries that the stream declares (unspecified: sRGB, Rec. 709).
+  /// The primaries that the stream declares, and its transfer function or the response given (unspecified: sRGB, Rec. 709).
   render::PlateColor color() const;
 
   /// log2 of the pixels across and down that share a colour sample: (1, 1) in 4:2:0, (0, 0) where every pixel has its own.
@@ -47,6 +49,7 @@ class Frame {
   std::shared_ptr<const AVFrame> picture_;
   std::int64_t number_;
   double time_s_;
+  std::shared_ptr<const CameraResponse> response_;
   mutable std::shared_ptr<std::vector<std::uint8_t>> made_luma_;
 };
 

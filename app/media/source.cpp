@@ -20,7 +20,7 @@ SourceRequest sequence_request(const std::string& location, const SequencePatter
                 "') is missing between " + std::to_string(numbers.front()) + " and " + std::to_string(numbers.back()));
   }
   if (fps <= 0) throw UsageError("the frame rate of '" + location + "' must be above 0");
-  SourceRequest request{location, "file:" + location, "image2", {}, {}};
+  SourceRequest request{location, "file:" + location, "image2", {}, {}, {}};
   request.options = {
       {"pattern_type", "sequence"}, {"start_number", std::to_string(numbers.front())}, {"framerate", std::to_string(fps)}};
   request.info.is_sequence = true;
@@ -35,26 +35,32 @@ SourceRequest file_request(const std::string& location) {
     throw Error("'" + location + "' is a folder; name a video in it, or its pictures as in '" + location + "/%04d.png'");
   }
   // With the protocol named, a colon in a file's name stays part of the name.
-  return {location, "file:" + location, "", {}, {}};
+  return {location, "file:" + location, "", {}, {}, {}};
 }
 
 SourceRequest live_request(const std::string& location, const std::string& input_format) {
-  SourceRequest request{location, location, input_format, {}, {}};
+  SourceRequest request{location, location, input_format, {}, {}, {}};
   request.info.is_live = true;
   return request;
 }
 
+SourceRequest request_of(const std::string& location, double sequence_fps) {
+  if (location.find("://") != std::string::npos) return live_request(location, "");
+  if (location.starts_with("/dev/video")) return live_request(location, "v4l2");
+  const auto pattern = SequencePattern::parse(location);
+  return pattern && !fs::exists(location) ? sequence_request(location, *pattern, sequence_fps) : file_request(location);
+}
+
 }  // namespace
 
-std::unique_ptr<MediaSource> MediaSource::open(const std::string& location, double sequence_fps) {
+std::unique_ptr<MediaSource> MediaSource::open(const std::string& location, double sequence_fps,
+                                               std::shared_ptr<const CameraResponse> response) {
   capture_ffmpeg_log();
   if (location.empty())
     throw UsageError("no footage named: a file, a pattern such as 'plate/%04d.png', a camera or an address is wanted");
-  if (location.find("://") != std::string::npos) return std::make_unique<VideoSource>(live_request(location, ""));
-  if (location.starts_with("/dev/video")) return std::make_unique<VideoSource>(live_request(location, "v4l2"));
-  const auto pattern = SequencePattern::parse(location);
-  if (pattern && !fs::exists(location)) return std::make_unique<VideoSource>(sequence_request(location, *pattern, sequence_fps));
-  return std::make_unique<VideoSource>(file_request(location));
+  SourceRequest request = request_of(location, sequence_fps);
+  request.response = std::move(response);
+  return std::make_unique<VideoSource>(std::move(request));
 }
 
 }  // namespace catchlight::app

@@ -35,7 +35,9 @@ class MediaSource {
   /// `sequence_fps`: image files do not say how fast they follow each other.
   /// Throws Error: no such file, no video stream in it, a gap in a sequence (number named); DamagedMedia: not even one frame can
   /// be decoded.
-  static std::unique_ptr<MediaSource> open(const std::string& location, double sequence_fps = 24);
+  /// `response` is the camera's, where the stream does not say it.
+  static std::unique_ptr<MediaSource> open(const std::string& location, double sequence_fps = 24,
+                                           std::shared_ptr<const CameraResponse> response = {});
   virtual ~MediaSource() = default;
 
   virtual const SourceInfo& info() const = 0;

@@ -281,7 +281,8 @@ Frame VideoSource::finish_frame(FramePtr picture) {
     picture->color_trc = AVCOL_TRC_LINEAR;
   check_shape(*picture);
   const double time_s = static_cast<double>(picture->pts - first_pts_) * av_q2d(stream_->time_base);
-  return {std::shared_ptr<const AVFrame>(std::move(picture)), request_.info.first_number + delivered_++, time_s};
+  return {std::shared_ptr<const AVFrame>(std::move(picture)), request_.info.first_number + delivered_++, time_s,
+          request_.response};
 }
 
 }  // namespace catchlight::app

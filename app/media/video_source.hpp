@@ -14,6 +14,7 @@ struct SourceRequest {
   std::string input_format;  ///< empty: FFmpeg finds out
   std::vector<std::pair<std::string, std::string>> options;
   SourceInfo info;  ///< frame_count, first_number, is_sequence of a sequence; is_live
+  std::shared_ptr<const CameraResponse> response;
 };
 
 class VideoSource final : public MediaSource {

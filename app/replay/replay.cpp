@@ -117,11 +117,11 @@ ReplayResult replay_recording(const std::string& location, const RecordingOverri
   SceneSettings scene = recording.scene;
   if (!scene.is_by_hand("glare.enabled")) scene.glare.enabled = false;
   scene.lens.noise = Switch::off;
-  const std::unique_ptr<MediaSource> source = MediaSource::open(recording.footage);
+  const std::unique_ptr<MediaSource> source = open_footage(recording, log.warning_handler());
   const CameraModel camera = camera_for_footage(recording, source->info().width_px, source->info().height_px);
 
   Report report, tracking;
-  const OverlayResult solved = solve_track(*MediaSource::open(recording.footage), camera, scene, FrameRange{}, log, tracking);
+  const OverlayResult solved = solve_track(*open_footage(recording), camera, scene, FrameRange{}, log, tracking);
   const std::unique_ptr<FrameTrack> track = make_recorded_track(solved.rows, camera, scene);
   Stage stage = build_stage(scene, log, report);
   MeasuringOutput output(recording.folder);

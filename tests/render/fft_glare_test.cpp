@@ -133,7 +133,7 @@ TEST(FftGlare, FollowsAChangeOfTheCamera) {
 }
 
 TEST(FftGlare, WithoutAnApertureItIsTheKernelOfTheFastPasses) {
-  GlareSettings settings = of_aperture("");
+  GlareSettings settings = of_aperture("none");
   Image excess(kWidth, kHeight);
   excess.pixel(80, 60)[1] = 1000;
   const Image glare = FftGlare(settings).spread(excess, kCamera), kernel = glare_kernel(settings, kHeight, 41, 41);
