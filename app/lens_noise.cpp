@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "app/linear_patch.hpp"
 #include "tracking/ideal_pixels.hpp"
 #include "tracking/lens.hpp"
 #include "tracking/photometry.hpp"
@@ -69,9 +70,9 @@ void add_block(const CodePlanes& planes, int column, int row, CellBlocks& cell) 
 }
 
 /// Light per code: the slope of the curve.
-double slope_at(TransferFunction transfer, double code) {
-  constexpr double kStep = 1e-4;
-  return (linear_from_code(transfer, code + kStep) - linear_from_code(transfer, code - kStep)) / (2 * kStep);
+double slope_at(const render::PlateColor& response, double code, int channel) {
+  constexpr double kStep = 1.0 / 255;  // no finer than measured curves are
+  return (linear_from_code(response, code + kStep, channel) - linear_from_code(response, code - kStep, channel)) / (2 * kStep);
 }
 
 template <class Value>
@@ -122,7 +123,7 @@ std::vector<CellBlocks> cells_of(const CodePlanes& planes, const CameraModel& ca
   return cells;
 }
 
-FlatPatch flat_of(CellBlocks& cell, const glm::dmat3& rounding, TransferFunction transfer) {
+FlatPatch flat_of(CellBlocks& cell, const glm::dmat3& rounding, const render::PlateColor& response) {
   const glm::dvec3 code = mean(cell.luma) + mean(cell.color), one(1.0);
   take_off_plane(cell.pixel_places, cell.luma);
   take_off_plane(cell.block_places, cell.block_luma);
@@ -139,8 +140,8 @@ FlatPatch flat_of(CellBlocks& cell, const glm::dmat3& rounding, TransferFunction
   }
   glm::dvec3 slope(0.0);
   for (int c = 0; c < 3; ++c) {
-    slope[c] = slope_at(transfer, code[c]);
-    flat.light[c] = linear_from_code(transfer, code[c]);
+    slope[c] = slope_at(response, code[c], c);
+    flat.light[c] = linear_from_code(response, code[c], c);
   }
   flat.covariance = glm::matrixCompMult(covariance - rounding, glm::outerProduct(slope, slope));
   return flat;
@@ -160,8 +161,7 @@ void NoiseMeter::add_tag(const Frame& frame, const TrackRow& row, const tracking
   if (planes.rect.empty()) return;
   std::vector<FlatPatch> flats;
   for (CellBlocks& cell : cells_of(planes, camera_, camera_from_tag, tag, row.blur_px2))
-    if (cell.color.size() >= kFewestBlocks && !cell.is_clipped)
-      flats.push_back(flat_of(cell, planes.rounding, frame.color().transfer));
+    if (cell.color.size() >= kFewestBlocks && !cell.is_clipped) flats.push_back(flat_of(cell, planes.rounding, frame.color()));
   if (flats.empty()) return;
   // Each ink by itself: what is much for black is little for white.
   const auto [low, high] = std::ranges::minmax_element(flats, {}, [](const FlatPatch& flat) { return flat.light.g; });

@@ -23,24 +23,24 @@ glm::dmat3 covariance(const NoiseModel& noise, double light) {
   return glm::matrixCompMult(correlation, glm::outerProduct(sigma, sigma));
 }
 
-bool is_visible(const NoiseModel& noise, TransferFunction transfer) {
-  return std::max(noise_codes(noise, transfer, kGrey), noise_codes(noise, transfer, 3 * kGrey)) >= kVisibleCodes;
+bool is_visible(const NoiseModel& noise, const render::PlateColor& response) {
+  return std::max(noise_codes(noise, response, kGrey), noise_codes(noise, response, 3 * kGrey)) >= kVisibleCodes;
 }
 
-bool adds_noise(Switch wanted, const NoiseModel& noise, TransferFunction transfer) {
+bool adds_noise(Switch wanted, const NoiseModel& noise, const render::PlateColor& response) {
   if (wanted == Switch::off || !noise.is_measured()) return false;
-  return wanted == Switch::on || is_visible(noise, transfer);
+  return wanted == Switch::on || is_visible(noise, response);
 }
 
-PlanEntry noise_entry(Switch wanted, const NoiseModel& noise, TransferFunction transfer) {
-  const bool on = adds_noise(wanted, noise, transfer);
+PlanEntry noise_entry(Switch wanted, const NoiseModel& noise, const render::PlateColor& response) {
+  const bool on = adds_noise(wanted, noise, response);
   std::string why;
   if (wanted == Switch::off) {
     why = "switched off";
   } else if (!noise.is_measured()) {
     why = "not measured: the tag's cells are too small, or the track file does not say";
   } else {
-    why = "luma's grain is " + fixed_text(noise_codes(noise, transfer, kGrey), 2) + " codes on a grey of " +
+    why = "luma's grain is " + fixed_text(noise_codes(noise, response, kGrey), 2) + " codes on a grey of " +
           fixed_text(kGrey, 2) + ", variance = " + number_text(noise.slope.g) + " x light + " + number_text(noise.floor.g) +
           " in green";
     if (!on) why += ", less than rounding's own";
@@ -95,12 +95,12 @@ PlanEntry chroma_entry(Switch wanted, const glm::ivec2& shift) {
 
 }  // namespace
 
-double noise_codes(const NoiseModel& noise, TransferFunction transfer, double light) {
+double noise_codes(const NoiseModel& noise, const render::PlateColor& response, double light) {
   const glm::dmat3 c = covariance(noise, light);
   const double variance = std::max(glm::dot(kLuminanceWeights, c * kLuminanceWeights), 0.0);
   const double step = 1e-3 * light;
   const double codes_per_light =
-      255 * (code_from_linear(transfer, light + step) - code_from_linear(transfer, light - step)) / (2 * step);
+      255 * (code_from_linear(response, light + step, 1) - code_from_linear(response, light - step, 1)) / (2 * step);
   return std::sqrt(variance) * codes_per_light;
 }
 
@@ -142,7 +142,7 @@ double shutter_share(const SceneSettings::Lens& settings, const LensBlurModel& b
 render::LensView lens_view(const SceneSettings::Lens& settings, const TrackRow& row, const Frame& frame,
                            const glm::dvec3& vignetting) {
   render::LensView lens;
-  if (adds_noise(settings.noise, row.noise, frame.color().transfer)) {
+  if (adds_noise(settings.noise, row.noise, frame.color())) {
     lens.noise.enabled = true;
     lens.noise.slope = row.noise.slope;
     lens.noise.floor = row.noise.floor;
@@ -160,7 +160,7 @@ render::LensView lens_view(const SceneSettings::Lens& settings, const TrackRow& 
 std::vector<PlanEntry> lens_plan(const SceneSettings::Lens& settings, const std::vector<TrackRow>& rows, const Frame& frame,
                                  const glm::dvec3& vignetting) {
   if (rows.empty()) return {};
-  return {noise_entry(settings.noise, rows.back().noise, frame.color().transfer), defocus_entry(settings.defocus, rows),
+  return {noise_entry(settings.noise, rows.back().noise, frame.color()), defocus_entry(settings.defocus, rows),
           motion_entry(settings, rows.back().lens_blur), vignetting_entry(settings.vignetting, vignetting),
           chroma_entry(settings.chroma_subsampling, frame.color_block_shift())};
 }

@@ -1,6 +1,7 @@
 // From what was measured of the lens, and what the scene file wants of it, to what the compositor draws.
 #pragma once
 
+#include "app/media/frame.hpp"
 #include "app/report.hpp"
 #include "app/scene_settings.hpp"
 #include "app/track_file.hpp"
@@ -9,7 +10,7 @@
 namespace catchlight::app {
 
 /// Luma's standard deviation on a grey of `light`, in 8-bit codes.
-double noise_codes(const NoiseModel& noise, TransferFunction transfer, double light);
+double noise_codes(const NoiseModel& noise, const render::PlateColor& response, double light);
 
 /// Splits noise of these variances and correlations into what pixels of one colour sample share and what each has alone
 /// (render::LensNoise::mix): colour is RGB less luma, a block's; luma is the pixel's, and goes with colour as far as it is

@@ -76,7 +76,7 @@ TEST(NoiseMeter, FindsTheVarianceOfEachChannelWithinATwentieth) {
 
 TEST(NoiseMeter, RoundingAloneIsNoNoise) {
   const NoiseModel model = measured(glm::dvec3(0), 0, 2);
-  EXPECT_LT(noise_codes(model, TransferFunction::srgb, 0.5), 0.25);
+  EXPECT_LT(noise_codes(model, render::PlateColor{}, 0.5), 0.25);
   const SceneSettings::Lens lens;
   TrackRow row;
   row.noise = model;

@@ -101,7 +101,9 @@ TEST_F(LensNoiseGl, WhatIsNotTouchedIsNotNoisier) {
   const Composite composite = compositor.render(view, linear_grey_plate());
   for (int y = composite.rect.y; y < composite.rect.y + composite.rect.height; ++y)
     for (int x = composite.rect.x; x < composite.rect.x + composite.rect.width; ++x)
-      if (std::abs(x - 79.5) > 10 || std::abs(y - 59.5) > 10) EXPECT_EQ(pixel_at(composite, x, y), glm::vec4(0.5, 0.5, 0.5, 0));
+      if (std::abs(x - 79.5) > 10 || std::abs(y - 59.5) > 10) {
+        EXPECT_EQ(pixel_at(composite, x, y), glm::vec4(0.5, 0.5, 0.5, 0));
+      }
 }
 
 TEST_F(LensNoiseGl, AShadowKeepsThePlatesOwnNoiseAndGetsTheRest) {
