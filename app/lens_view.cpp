@@ -117,12 +117,15 @@ glm::dmat3 noise_mix(const NoiseModel& noise) {
   const double bb = std::sqrt(std::max(color[2][2] - br * br, 0.0));
   const auto of_red_and_blue = [&](double red, double blue) { return glm::dvec3(red, -(w.r * red + w.b * blue) / w.g, blue); };
   const glm::dvec3 first = of_red_and_blue(rr, br), second = of_red_and_blue(0, bb);
-  // Luma's regression on the two numbers behind C; what is left of it is the pixel's own.
-  const double on_first = rr > 0 ? shared.r / rr : 0, on_second = bb > 0 ? (shared.b - br * on_first) / bb : 0;
+  // Luma's regression on the two numbers behind C; what is left of it is the pixel's own. The ridge keeps luma from following
+  // colours that hardly vary, which any error of measurement would make it do.
+  const double ridge = 0.01 * luma;
+  const double on_first = rr > 0 ? shared.r * rr / (rr * rr + ridge) : 0;
+  const double on_second = bb > 0 ? (shared.b - br * on_first) * bb / (bb * bb + ridge) : 0;
   const double alone = std::sqrt(std::max(luma - on_first * on_first - on_second * on_second, 0.0));
   glm::dmat3 mix(first + on_first, second + on_second, glm::dvec3(alone));
   for (int channel = 0; channel < 3; ++channel) {
-    const double sigma = std::sqrt(c[channel][channel]);
+    const double sigma = std::sqrt(mix[0][channel] * mix[0][channel] + mix[1][channel] * mix[1][channel] + alone * alone);
     for (int i = 0; i < 3; ++i) mix[i][channel] = sigma > 0 ? mix[i][channel] / sigma : 0;
   }
   return mix;

@@ -14,7 +14,7 @@ double noise_codes(const NoiseModel& noise, const render::PlateColor& response, 
 
 /// Splits noise of these variances and correlations into what pixels of one colour sample share and what each has alone
 /// (render::LensNoise::mix): colour is RGB less luma, a block's; luma is the pixel's, and goes with colour as far as it is
-/// correlated. Exact on greys.
+/// correlated. Every channel's variance is 1; correlations are kept within 0.01.
 glm::dmat3 noise_mix(const NoiseModel& noise);
 
 /// Variance of the lens's blur beyond what a pixel's own square gives every picture, ours too; 0: none.

@@ -119,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"quality.bands", "0", "--quality.bands is 0; expected a whole number from 1 to 10"},
         Refusal{"quality.bands", "4294967302", "--quality.bands is 4294967302; expected a whole number from 1 to 10"},
         Refusal{"glare.enabled", "yes", "--glare.enabled is \"yes\"; expected true or false"},
-        Refusal{"exposure.mode", "auto", "--exposure.mode is \"auto\"; expected \"match\" or \"fixed\""},
+        Refusal{"exposure.mode", "eye", "--exposure.mode is \"eye\"; expected \"match\", \"fixed\" or \"auto\""},
         Refusal{"object.shading", "toon", "--object.shading is \"toon\"; expected \"prt\""},
         Refusal{"lens.noise", "much", "--lens.noise is \"much\"; expected \"auto\", true or false"},
         Refusal{"lens.shutter", "1.5", "--lens.shutter is 1.5; expected a number from 0 to 1"},
@@ -147,7 +147,7 @@ TEST(ParameterFromText, FilesAreRelativeToTheWorkingFolder) {
 
 TEST(ParameterFromText, AnApertureIsDrawnByTheProgramOrAFile) {
   SceneSettings settings;
-  for (const char* name : {"blades:6", "dust", ""}) {
+  for (const char* name : {"blades:5", "dust", "none"}) {
     set_parameter_from_text(settings, "glare.aperture", name);
     EXPECT_EQ(settings.glare.aperture, name);
   }

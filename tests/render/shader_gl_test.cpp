@@ -88,7 +88,8 @@ class ShaderFolder {
 TEST_F(ShaderGl, AFolderReplacesTheEmbeddedFiles) {
   ShaderFolder folder;
   std::string text = embedded_shaders().at("composite.frag");
-  text.replace(text.find("result = vec4(new_code"), 22, "result = vec4(vec3(0.25)");
+  const std::string codes = "vec4(new_code, changed";
+  text.replace(text.find(codes), codes.size(), "vec4(vec3(0.25), changed");
   folder.write("composite.frag", text);
   CompositorSettings settings;
   settings.shader_folder = folder.path();
