@@ -7,13 +7,10 @@
 #include <iterator>
 
 #include "app/debug_drawing.hpp"
-#include "app/exposure.hpp"
 #include "app/lens_view.hpp"
 #include "app/look.hpp"
 #include "app/media/full_color.hpp"
-#include "app/parameters.hpp"
 #include "app/progress.hpp"
-#include "render/tone_adaptation.hpp"
 
 namespace catchlight::app {
 
@@ -33,70 +30,6 @@ std::optional<std::int64_t> frames_to_read(const SourceInfo& info, const FrameRa
   if (!info.frame_count) return {};
   return std::min(*info.frame_count, range.end == FrameRange{}.end ? *info.frame_count : range.end - info.first_number);
 }
-
-render::FrameView frame_view(const CameraModel& camera, const SceneSettings& scene, const BuiltScene& built, const TrackRow& row,
-                             const Frame& frame, const glm::dvec3& vignetting) {
-  render::FrameView view;
-  view.camera = camera;
-  if (scene.lens.distortion == Switch::off) view.camera.distortion = {};
-  view.color = frame.color();
-  view.has_pose = row.found;
-  if (!row.found) return view;
-  view.camera_from_tag = row.camera_from_tag;
-  view.exposure = exposure_gain(scene.exposure, row.exposure, tag_irradiance_over_pi(built, row.camera_from_tag));
-  view.black = scene.exposure.mode == "fixed" ? glm::dvec3(0.0) : row.black;
-  view.tag_from_light = tag_from_light(built, row.camera_from_tag);
-  view.lens = lens_view(scene.lens, row, frame, vignetting);
-  return view;
-}
-
-/// Draws frame after frame. Exposure "auto" adapts to what it has seen: it must see every frame of the footage, in order.
-class FrameDrawing {
- public:
-  FrameDrawing(Stage& stage, const SceneSettings& scene, const CameraModel& camera, bool want_layers)
-      : stage_(stage),
-        scene_(scene),
-        camera_(camera),
-        want_layers_(want_layers),
-        adaptation_(scene.exposure.adapt_bright_s, scene.exposure.adapt_dark_s) {}
-
-  render::Composite draw(const Frame& frame, const TrackRow& row) {
-    pass_times_.clear();
-    if (!row.found && !(recodes_every_frame(scene_) && !want_layers_)) return {};
-    const render::FrameView view = view_of(frame, row);
-    render::Composite composite = stage_.compositor->render(view, reader(frame), want_layers_);
-    pass_times_ = stage_.compositor->pass_times();
-    if (adapts()) adaptation_.see(frame.time_s(), composite.tone_wanted);
-    return composite;
-  }
-
-  /// Of a frame that is not written.
-  void pass_over(const Frame& frame, const TrackRow& row) {
-    if (adapts()) adaptation_.see(frame.time_s(), stage_.compositor->meter(view_of(frame, row), reader(frame)));
-  }
-
-  /// Of the last draw(); empty where nothing was drawn.
-  const std::vector<render::PassTime>& pass_times() const { return pass_times_; }
-
- private:
-  static render::PlateReader reader(const Frame& frame) {
-    return [&frame](const PixelRect& rect) { return frame.rgb(rect); };
-  }
-  bool adapts() const { return tone_settings(scene_).enabled && !want_layers_; }
-
-  render::FrameView view_of(const Frame& frame, const TrackRow& row) const {
-    render::FrameView view = frame_view(camera_, scene_, stage_.built, row, frame, stage_.vignetting);
-    view.tone = adapts() ? adaptation_.at(frame.time_s()) : std::nullopt;
-    return view;
-  }
-
-  Stage& stage_;
-  const SceneSettings& scene_;
-  CameraModel camera_;
-  bool want_layers_;
-  render::ToneAdaptation adaptation_;
-  std::vector<render::PassTime> pass_times_;
-};
 
 void count(const TrackRow& row, Report& report) {
   ++report.frames;
@@ -207,23 +140,6 @@ void warn_of_lost_frames(const Report& report, Log& log) {
              " frames, which pass through untouched; check tag.family, tag.id and that the tag is sharp and at least 20 px wide");
   else if (report.lost_frames > 0)
     log.warn("no tag in " + std::to_string(report.lost_frames) + of_frames + ", which pass through untouched");
-}
-
-Stage build_stage(const SceneSettings& scene, Log& log, Report& report) {
-  Stage stage;
-  stage.context = render::make_headless_context();
-  report.renderer = render::gl_info().renderer;
-  stage.built = build_render_scene(scene, log.warning_handler(), progress_handler(log, "bake"));
-  report.plan = stage.built.plan;
-  render::CompositorSettings settings;
-  settings.glare = scene.glare;
-  settings.glare.aperture = word_or_path(scene, "glare.aperture");
-  settings.look = compositor_look(scene);
-  settings.tone = tone_settings(scene);
-  settings.samples = scene.quality.samples;
-  settings.reflection_rays = scene.quality.reflection_rays;
-  stage.compositor = std::make_unique<render::Compositor>(stage.built.scene, settings);
-  return stage;
 }
 
 OverlayResult run_overlay(MediaSource& source, FrameTrack& track, Stage& stage, const SceneSettings& scene,

@@ -12,9 +12,7 @@
 #include "app/log.hpp"
 #include "app/recording.hpp"
 #include "app/report.hpp"
-#include "app/scene_build.hpp"
-#include "render/compositor.hpp"
-#include "render/gl_context.hpp"
+#include "app/stage.hpp"
 
 namespace catchlight::app {
 
@@ -27,18 +25,6 @@ struct FrameRange {
 
 /// "A:B" (B left out of it), "A:" or ":B"; "N" is that frame alone. Throws UsageError.
 FrameRange parse_frame_range(const std::string& text);
-
-/// A scene ready to be drawn, with the GL context it lives in.
-struct Stage {
-  std::unique_ptr<render::GlContext> context;
-  BuiltScene built;
-  std::unique_ptr<render::Compositor> compositor;
-  glm::dvec3 vignetting{0.0};  ///< as the camera file says
-  bool draws_debug = false;  ///< over every finished frame, as app/debug_drawing.hpp says
-};
-
-/// Loads, bakes and uploads; adds plan and renderer to the report. Throws Error.
-Stage build_stage(const SceneSettings& scene, Log& log, Report& report);
 
 struct OverlayResult {
   std::vector<TrackRow> rows;         ///< of the frames in range
