@@ -119,7 +119,7 @@ glm::dmat3 noise_mix(const NoiseModel& noise) {
   const glm::dvec3 first = of_red_and_blue(rr, br), second = of_red_and_blue(0, bb);
   // Luma's regression on the two numbers behind C; what is left of it is the pixel's own. The ridge keeps luma from following
   // colours that hardly vary, which any error of measurement would make it do.
-  const double ridge = 0.01 * luma;
+  const double ridge = 0.005 * luma;
   const double on_first = rr > 0 ? shared.r * rr / (rr * rr + ridge) : 0;
   const double on_second = bb > 0 ? (shared.b - br * on_first) * bb / (bb * bb + ridge) : 0;
   const double alone = std::sqrt(std::max(luma - on_first * on_first - on_second * on_second, 0.0));
