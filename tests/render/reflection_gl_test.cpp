@@ -154,6 +154,21 @@ TEST_F(ReflectionGl, RoughnessChoosesTheLevel) {
   }
 }
 
+TEST_F(ReflectionGl, APolishedSurfaceHasNoHalo) {
+  // Variances of lobes add: of the first level's lobe, alpha = 1/16, a roughness r below it mixes in r^4 / alpha^2.
+  RenderScene scene = mirror_sphere([](const glm::dvec3&) { return glm::vec3(0); });
+  scene.reflections = reflections_of([](const glm::dvec3&) { return glm::vec3(0); }, 16, 5);
+  for (std::size_t k = 1; k < 5; ++k)
+    std::fill(scene.reflections.levels[k].data.begin(), scene.reflections.levels[k].data.end(), 1.0f);
+  CompositorSettings settings = without_glare();
+  settings.reflection_rays = 0;
+  for (const double roughness : {0.02, 0.05, 0.1, 0.2}) {
+    scene.mesh.materials[0].roughness = static_cast<float>(roughness);
+    const double value = pixel_at(Compositor(scene, settings).render(linear_view(0.5), kBlackPlate), 80, 60).x;
+    EXPECT_NEAR(value, std::pow(roughness * 4, 4), 0.01) << "hardware mixes levels in steps of 1/256; roughness " << roughness;
+  }
+}
+
 TEST_F(ReflectionGl, LevelsOfAnySizeAreAccepted) {
   RenderScene scene = mirror_sphere([](const glm::dvec3&) { return glm::vec3(1); });
   scene.reflections.levels.clear();
