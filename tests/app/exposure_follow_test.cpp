@@ -169,6 +169,35 @@ TEST(ExposureFollows, ABlackFrameAndAWhiteFrameAreHeldAndWarnedOf) {
   EXPECT_EQ(track.warning(rows).has_value(), rows[2].found || rows[3].found);
 }
 
+/// Light times `share` where `is_within` (of pixels) holds.
+template <class Region>
+std::vector<float> dimmed(std::vector<float> light, float share, const Region& is_within) {
+  for (int y = 0; y < 160; ++y)
+    for (int x = 0; x < 200; ++x)
+      if (is_within(x, y)) light[static_cast<std::size_t>(y * 200 + x)] *= share;
+  return light;
+}
+
+TEST(ExposureFollows, ACastShadowThatMovesOverASixthOfTheTag) {
+  const auto gains = wandering_gains(1);
+  std::vector<Frame> frames;
+  for (std::size_t i = 0; i < gains.size(); ++i) {
+    const int edge = 74 + static_cast<int>(i % 6);  // the tag reaches from 70 to 130
+    frames.push_back(
+        photograph(dimmed(tag_light(), 0.5f, [edge](int x, int) { return x < edge; }), gains[i], static_cast<std::int64_t>(i)));
+  }
+  expect_within(solved(frames), gains, 0.02);
+  expect_within(causal(frames), gains, 0.02);
+}
+
+TEST(ExposureFollows, AStainOnTheTag) {
+  const auto stained = dimmed(tag_light(), 0.4f, [](int x, int y) { return std::hypot(x - 88, y - 88) < 8; });
+  const auto gains = wandering_gains(1);
+  const auto frames = photographs(stained, gains);
+  expect_within(solved(frames), gains, 0.02);
+  expect_within(causal(frames), gains, 0.02);
+}
+
 /// The light of a recording's frames, re-exposed: what H.264 did to them stays.
 TEST(ExposureFollows, ARecordingWhoseExposureAndWhiteBalanceWander) {
   const std::string folder = std::string(CATCHLIGHT_SOURCE_DIR) + "/recordings/matte";

@@ -117,6 +117,14 @@ TEST(ExposureGain, StopsDoubleAndFixedIgnoresTheTag) {
   EXPECT_DOUBLE_EQ(exposure_gain({"fixed", -2}, glm::dvec3(0.5), glm::dvec3(7.0)).x, 0.25);
 }
 
+TEST(ExposureGain, TwentyStopsEitherWayAreFiniteAndExact) {
+  for (const char* mode : {"match", "fixed"})
+    for (const double ev : {-20.0, 20.0}) {
+      const glm::dvec3 gain = exposure_gain({mode, ev}, glm::dvec3(0.5), glm::dvec3(0.5));
+      EXPECT_EQ(gain, glm::dvec3(std::exp2(ev))) << mode << " " << ev;
+    }
+}
+
 TEST(ExposureGain, ProbeBlackInOneChannelStaysFinite) {
   const glm::dvec3 gain = exposure_gain({"match", 0}, glm::dvec3(0.5), {1.0, 0.0, 1.0});
   EXPECT_EQ(gain.y, 0.0);

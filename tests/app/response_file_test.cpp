@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <opencv2/photo.hpp>
 #include <random>
 
@@ -166,6 +167,28 @@ TEST_F(ResponseFile, BadFilesAreRefusedByName) {
   EXPECT_THAT(refusal("d.cube", "LUT_1D_SIZE 2\n0 0 0\nx 1 1\n"), HasSubstr("d.cube:3"));
   EXPECT_THAT(refusal("a.yaml", "%YAML:1.0\n---\nx: 3\n"), HasSubstr("holds 0 matrices"));
   EXPECT_THAT(refusal("b.yaml", "no yaml"), HasSubstr("b.yaml"));
+  EXPECT_THAT(refusal("empty.yaml", ""), HasSubstr("empty.yaml"));
+  EXPECT_THAT(refusal("empty.cube", ""), HasSubstr("empty.cube"));
+  EXPECT_THAT(refusal("one.csv", "0,0,0,0\n"), HasSubstr("holds 1 codes"));
+}
+
+TEST_F(ResponseFile, AMatrixThatIsNoCurveIsRefusedByName) {
+  const auto refused = [this](const std::string& name, const cv::Mat& matrix) {
+    cv::FileStorage storage(folder_.path(name), cv::FileStorage::WRITE);
+    storage.write("response", matrix);
+    storage.release();
+    return message_of<Error>([&] { load(folder_.path(name)); });
+  };
+  EXPECT_THAT(refused("two.yaml", cv::Mat::ones(256, 1, CV_32FC2)), AllOf(HasSubstr("two.yaml"), HasSubstr("2 channels")));
+  EXPECT_THAT(refused("wide.yaml", cv::Mat::ones(256, 7, CV_32F)), AllOf(HasSubstr("wide.yaml"), HasSubstr("256 x 7")));
+  cv::Mat curve(256, 1, CV_32F);
+  for (int code = 0; code < 256; ++code) curve.at<float>(code) = static_cast<float>(code);
+  curve.at<float>(100) = std::nanf("");
+  EXPECT_THAT(refused("nan.yaml", curve), AllOf(HasSubstr("nan.yaml"), HasSubstr("code 100 is not a finite")));
+  curve.at<float>(100) = std::numeric_limits<float>::infinity();
+  EXPECT_THAT(refused("inf.xml", curve), AllOf(HasSubstr("inf.xml"), HasSubstr("code 100 is not a finite")));
+  curve.at<float>(100) = 30;
+  EXPECT_THAT(refused("falls.yaml", curve), AllOf(HasSubstr("falls.yaml"), HasSubstr("does not rise")));
 }
 
 TEST_F(ResponseFile, OpenCvsDebevecRecoversAKnownCurve) {

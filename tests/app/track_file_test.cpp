@@ -134,6 +134,19 @@ TEST(TrackFile, KnownPosesReadWithoutTheOtherColumns) {
   EXPECT_EQ(rows[0].black, glm::dvec3(0));
 }
 
+TEST(TrackFile, OneOfTheFirstReleasesHasItsExposureAndNoNoiseOrBlur) {
+  const std::vector<TrackRow> rows =
+      read("frame,time_s,found,r00,r01,r02,r10,r11,r12,r20,r21,r22,tx,ty,tz,state,exposure_r,exposure_g,exposure_b,black_r,"
+           "black_g,black_b\n3,0.125,1,1,0,0,0,1,0,0,0,1,0,0,1,tracking,0.5,0.6,0.7,0.01,0.02,0.03\n");
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_TRUE(rows[0].has_exposure);
+  EXPECT_EQ(rows[0].exposure, glm::dvec3(0.5, 0.6, 0.7));
+  EXPECT_EQ(rows[0].black, glm::dvec3(0.01, 0.02, 0.03));
+  EXPECT_EQ(rows[0].noise_codes, 0);
+  EXPECT_EQ(rows[0].noise.slope, glm::dvec3(0));
+  EXPECT_EQ(rows[0].lens_blur.shutter, 0);
+}
+
 TEST(TrackFile, ColumnsAreFoundByNameAndUnknownOnesLeftAlone) {
   const std::vector<TrackRow> rows =
       read("tz,ty,tx,note,r22,r21,r20,r12,r11,r10,r02,r01,r00,frame\n3,2,1,hello,1,0,0,0,1,0,0,0,1,6\n");
