@@ -20,7 +20,9 @@ constexpr double kReachSigmas = 3, kReachPx = 1;        ///< how far an edge's l
 constexpr std::size_t kFewestBlocks = 8;                ///< in a cell
 constexpr double kMostOfMedian = 2.5;                   ///< a cell with more variance is not flat
 constexpr double kDarkest = 0.004, kBrightest = 0.985;  ///< codes beyond are clipped
-constexpr double kMostPixels = 40'000;                  ///< looked at in a frame
+constexpr double kMostPixels = 100'000;                 ///< looked at in a frame
+constexpr int kPaperCells = 4;                          ///< of the sheet around the print
+constexpr double kPaperLikeness = 0.15;                 ///< the sheet's light differs by no more from the print's white
 constexpr double kWeightFloor = 0.02;                   ///< variance grows about as light + this, so that its own error does too
 
 /// What is left of values at places after their best plane.
@@ -47,7 +49,7 @@ struct CellBlocks {
   std::vector<glm::dvec2> block_places, pixel_places;
   std::vector<glm::dvec3> color;
   std::vector<double> luma, block_luma;
-  bool is_clipped = false;
+  bool is_clipped = false, is_on_print = true;
 };
 
 void add_block(const CodePlanes& planes, int column, int row, CellBlocks& cell) {
@@ -94,12 +96,12 @@ glm::dvec2 line(double w, double wi, double wii, double wv, double wiv) {
   return {std::max(wiv / wii, 0.0), 0};
 }
 
-/// By cell: what of the print is far enough from every edge.
+/// By cell: what of the print, and of the sheet that may go on around it, is far enough from every edge of the print.
 std::vector<CellBlocks> cells_of(const CodePlanes& planes, const CameraModel& camera, const RigidTransform& camera_from_tag,
                                  const tracking::BundledTag& tag, const tracking::Covariance2& blur_px2) {
   const tracking::TagPattern pattern(tracking::tag_layout(tag.family, tag.id));
   const tracking::TagView view(camera, camera_from_tag, tag.size_m, pattern.cells_across());
-  const int margin = pattern.margin(), side = pattern.cells_across() + 2 * margin;
+  const int margin = pattern.margin() + kPaperCells, side = pattern.cells_across() + 2 * margin;
   const glm::dvec2 block(1 << planes.block_shift.x, 1 << planes.block_shift.y);
   const double reach_px =
       kReachSigmas * std::sqrt(std::max(blur_px2.xx, blur_px2.yy)) + kReachPx + 0.5 * glm::length(block - 1.0);
@@ -120,7 +122,19 @@ std::vector<CellBlocks> cells_of(const CodePlanes& planes, const CameraModel& ca
       if (cell.x < 0 || cell.y < 0 || cell.x >= side || cell.y >= side) continue;
       add_block(planes, x, y, cells[static_cast<std::size_t>(cell.y * side + cell.x)]);
     }
+  for (int row = 0; row < side; ++row)
+    for (int column = 0; column < side; ++column)
+      cells[static_cast<std::size_t>(row * side + column)].is_on_print =
+          std::min({column, row, side - 1 - column, side - 1 - row}) >= kPaperCells;
   return cells;
+}
+
+/// The pixels of print and sheet.
+PixelRect region_of(const CameraModel& camera, const RigidTransform& camera_from_tag, const tracking::BundledTag& tag) {
+  const tracking::TagLayout layout = tracking::tag_layout(tag.family, tag.id);
+  tracking::BundledTag larger = tag;
+  larger.size_m *= static_cast<double>(layout.side() + 2 * kPaperCells) / layout.side();
+  return tracking::photometry_region(camera, camera_from_tag, tracking::TagTarget{larger, {}});
 }
 
 FlatPatch flat_of(CellBlocks& cell, const glm::dmat3& rounding, const render::PlateColor& response) {
@@ -131,6 +145,7 @@ FlatPatch flat_of(CellBlocks& cell, const glm::dmat3& rounding, const render::Pl
   FlatPatch flat;
   for (const double luma : cell.luma) flat.luma_variance += luma * luma / static_cast<double>(cell.luma.size() - 3);
   flat.freedom = static_cast<double>(cell.color.size() - 3);
+  flat.is_on_print = cell.is_on_print;
   glm::dmat3 covariance = glm::outerProduct(one, one) * flat.luma_variance;
   for (std::size_t i = 0; i < cell.color.size(); ++i) {
     const glm::dvec3& color = cell.color[i];
@@ -156,28 +171,36 @@ void NoiseMeter::add(const Frame& frame, const TrackRow& row) {
 
 void NoiseMeter::add_tag(const Frame& frame, const TrackRow& row, const tracking::BundledTag& tag) {
   const RigidTransform camera_from_tag = row.camera_from_tag * tag.tag_from_this;
-  const CodePlanes planes =
-      code_planes(frame, tracking::photometry_region(camera_, camera_from_tag, tracking::TagTarget{tag, {}}));
+  const CodePlanes planes = code_planes(frame, region_of(camera_, camera_from_tag, tag));
   if (planes.rect.empty()) return;
   std::vector<FlatPatch> flats;
   for (CellBlocks& cell : cells_of(planes, camera_, camera_from_tag, tag, row.blur_px2))
     if (cell.color.size() >= kFewestBlocks && !cell.is_clipped) flats.push_back(flat_of(cell, planes.rounding, frame.color()));
-  if (flats.empty()) return;
+  const auto paper = std::ranges::partition(flats, &FlatPatch::is_on_print);
+  const std::span<const FlatPatch> print(flats.begin(), paper.begin());
+  if (print.empty()) return;
   // Each ink by itself: what is much for black is little for white.
-  const auto [low, high] = std::ranges::minmax_element(flats, {}, [](const FlatPatch& flat) { return flat.light.g; });
+  const auto [low, high] = std::ranges::minmax_element(print, {}, [](const FlatPatch& flat) { return flat.light.g; });
   const double between = (low->light.g + high->light.g) / 2;
-  const auto white = std::ranges::partition(flats, [&](const FlatPatch& flat) { return flat.light.g <= between; });
-  add_alike({flats.begin(), white.begin()});
-  add_alike({white.begin(), white.end()});
+  std::vector<FlatPatch> black, white;
+  for (const FlatPatch& flat : print) (flat.light.g <= between ? black : white).push_back(flat);
+  add_alike(black, {});
+  add_alike(white, paper);
 }
 
-void NoiseMeter::add_alike(std::span<const FlatPatch> flats) {
+void NoiseMeter::add_alike(std::span<const FlatPatch> flats, std::span<const FlatPatch> paper) {
   if (flats.empty()) return;
   std::vector<double> variances;
-  for (const FlatPatch& flat : flats) variances.push_back(flat.luma_variance);
+  glm::dvec3 light(0.0);
+  for (const FlatPatch& flat : flats) {
+    variances.push_back(flat.luma_variance);
+    light += flat.light / static_cast<double>(flats.size());
+  }
   const double most = kMostOfMedian * tracking::median(std::move(variances));
   for (const FlatPatch& flat : flats)
     if (flat.luma_variance <= most) add(flat);
+  for (const FlatPatch& flat : paper)
+    if (flat.luma_variance <= most && glm::all(glm::lessThan(glm::abs(flat.light - light), kPaperLikeness * light))) add(flat);
 }
 
 void NoiseMeter::add(const FlatPatch& flat) {

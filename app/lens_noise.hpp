@@ -17,6 +17,7 @@ struct FlatPatch {
   glm::dmat3 covariance{0.0};  ///< of it
   double luma_variance = 0;    ///< in codes
   double freedom = 0;          ///< degrees of it
+  bool is_on_print = true;     ///< or on what may be the sheet around it
 };
 
 /// White cells give the noise of one brightness, black cells of another, and changing exposure of more; every frame adds to the
@@ -36,8 +37,8 @@ class NoiseMeter {
 
  private:
   void add_tag(const Frame& frame, const TrackRow& row, const tracking::BundledTag& tag);
-  /// Of one ink, less the ones that stand out.
-  void add_alike(std::span<const FlatPatch> flats);
+  /// Of one ink, less the ones that stand out; of `paper` what is like it.
+  void add_alike(std::span<const FlatPatch> flats, std::span<const FlatPatch> paper);
   void add(const FlatPatch& flat);
 
   CameraModel camera_;
