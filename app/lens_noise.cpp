@@ -21,6 +21,7 @@ constexpr std::size_t kFewestBlocks = 8;                ///< in a cell
 constexpr double kMostOfMedian = 2.5;                   ///< a cell with more variance is not flat
 constexpr double kDarkest = 0.004, kBrightest = 0.985;  ///< codes beyond are clipped
 constexpr double kMostPixels = 100'000;                 ///< looked at in a frame
+constexpr double kNoiselessLight = 0.03;                ///< the darkest that may be without noise
 constexpr int kPaperCells = 4;                          ///< of the sheet around the print
 constexpr double kPaperLikeness = 0.15;                 ///< the sheet's light differs by no more from the print's white
 constexpr double kWeightFloor = 0.02;                   ///< variance grows about as light + this, so that its own error does too
@@ -42,6 +43,17 @@ void take_off_plane(const std::vector<glm::dvec2>& places, std::vector<Value>& v
     const glm::dvec3 weights = inverse * glm::dvec3(1, places[i] - middle);
     for (int k = 0; k < 3; ++k) values[i] -= right[static_cast<std::size_t>(k)] * weights[k];
   }
+}
+
+/// A plane needs places that are not on one line, as a narrow cell's may be.
+bool span_a_plane(const std::vector<glm::dvec2>& places) {
+  constexpr double kLeastSpread = 0.1;  // two rows of four have 0.3
+  glm::dvec2 middle(0.0);
+  glm::dmat2 spread(0.0);
+  const double share = 1.0 / static_cast<double>(places.size());
+  for (const glm::dvec2& place : places) middle += share * place;
+  for (const glm::dvec2& place : places) spread += share * glm::outerProduct(place - middle, place - middle);
+  return glm::determinant(spread) >= kLeastSpread;
 }
 
 /// The blocks of a cell that no edge's light reaches.
@@ -84,16 +96,17 @@ Value mean(const std::vector<Value>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-/// Non-negative least squares of two unknowns.
+/// Least squares of slope and floor, from sums of weight, light, variance and their products. The slope is not negative; the
+/// floor may be by a little: codecs wipe out what is left of the grain in the dark.
 glm::dvec2 line(double w, double wi, double wii, double wv, double wiv) {
   if (!(w > 0 && wii > 0)) return glm::dvec2(0.0);
   const double determinant = w * wii - wi * wi;
-  if (determinant > 1e-6 * w * wii) {
-    const double slope = (w * wiv - wi * wv) / determinant, floor = (wii * wv - wi * wiv) / determinant;
-    if (slope >= 0 && floor >= 0) return {slope, floor};
-    if (slope < 0) return {0, std::max(wv / w, 0.0)};
-  }
-  return {std::max(wiv / wii, 0.0), 0};
+  if (determinant <= 1e-6 * w * wii) return {std::max(wiv / wii, 0.0), 0};
+  const double slope = (w * wiv - wi * wv) / determinant, floor = (wii * wv - wi * wiv) / determinant;
+  if (slope < 0) return {0, std::max(wv / w, 0.0)};
+  if (floor >= -kNoiselessLight * slope) return {slope, floor};
+  const double through = (wiv - kNoiselessLight * wv) / (wii - 2 * kNoiselessLight * wi + kNoiselessLight * kNoiselessLight * w);
+  return through > 0 ? glm::dvec2(through, -kNoiselessLight * through) : glm::dvec2(0.0);
 }
 
 /// By cell: what of the print, and of the sheet that may go on around it, is far enough from every edge of the print.
@@ -129,6 +142,16 @@ std::vector<CellBlocks> cells_of(const CodePlanes& planes, const CameraModel& ca
   return cells;
 }
 
+double trace(const glm::dmat3& m) {
+  return m[0][0] + m[1][1] + m[2][2];
+}
+
+/// Covariance of RGB less luma.
+glm::dmat3 of_color(const glm::dmat3& covariance) {
+  const glm::dmat3 less_luma = glm::dmat3(1.0) - glm::outerProduct(glm::dvec3(1.0), kLuminanceWeights);
+  return less_luma * covariance * glm::transpose(less_luma);
+}
+
 /// The pixels of print and sheet.
 PixelRect region_of(const CameraModel& camera, const RigidTransform& camera_from_tag, const tracking::BundledTag& tag) {
   const tracking::TagLayout layout = tracking::tag_layout(tag.family, tag.id);
@@ -158,7 +181,11 @@ FlatPatch flat_of(CellBlocks& cell, const glm::dmat3& rounding, const render::Pl
     slope[c] = slope_at(response, code[c], c);
     flat.light[c] = linear_from_code(response, code[c], c);
   }
-  flat.covariance = glm::matrixCompMult(covariance - rounding, glm::outerProduct(slope, slope));
+  // Colour that varies by less than a code is not rounded at random: no more is taken off than there is.
+  const glm::dmat3 of_luma = glm::outerProduct(one, one) * glm::dot(kLuminanceWeights, rounding * kLuminanceWeights);
+  const double rounded = trace(of_color(rounding)), seen = trace(of_color(covariance));
+  const glm::dmat3 taken_off = of_luma + (rounding - of_luma) * (rounded > 0 ? std::clamp(seen / rounded, 0.0, 1.0) : 0.0);
+  flat.covariance = glm::matrixCompMult(covariance - taken_off, glm::outerProduct(slope, slope));
   return flat;
 }
 
@@ -175,7 +202,8 @@ void NoiseMeter::add_tag(const Frame& frame, const TrackRow& row, const tracking
   if (planes.rect.empty()) return;
   std::vector<FlatPatch> flats;
   for (CellBlocks& cell : cells_of(planes, camera_, camera_from_tag, tag, row.blur_px2))
-    if (cell.color.size() >= kFewestBlocks && !cell.is_clipped) flats.push_back(flat_of(cell, planes.rounding, frame.color()));
+    if (cell.color.size() >= kFewestBlocks && !cell.is_clipped && span_a_plane(cell.block_places))
+      flats.push_back(flat_of(cell, planes.rounding, frame.color()));
   const auto paper = std::ranges::partition(flats, &FlatPatch::is_on_print);
   const std::span<const FlatPatch> print(flats.begin(), paper.begin());
   if (print.empty()) return;
@@ -197,10 +225,14 @@ void NoiseMeter::add_alike(std::span<const FlatPatch> flats, std::span<const Fla
     light += flat.light / static_cast<double>(flats.size());
   }
   const double most = kMostOfMedian * tracking::median(std::move(variances));
-  for (const FlatPatch& flat : flats)
-    if (flat.luma_variance <= most) add(flat);
+  std::vector<FlatPatch> counted;
   for (const FlatPatch& flat : paper)
-    if (flat.luma_variance <= most && glm::all(glm::lessThan(glm::abs(flat.light - light), kPaperLikeness * light))) add(flat);
+    if (flat.luma_variance <= most && glm::all(glm::lessThan(glm::abs(flat.light - light), kPaperLikeness * light)))
+      counted.push_back(flat);
+  if (counted.size() < flats.size())
+    for (const FlatPatch& flat : flats)
+      if (flat.luma_variance <= most) counted.push_back(flat);
+  for (const FlatPatch& flat : counted) add(flat);
 }
 
 void NoiseMeter::add(const FlatPatch& flat) {

@@ -32,12 +32,13 @@ class NoiseMeter {
   /// Counts where the row's tag was seen and its blur measured.
   void add(const Frame& frame, const TrackRow& row);
 
-  /// By weighted least squares; neither slope nor floor is negative. Not measured where the cells were too small.
+  /// By weighted least squares; slopes are not negative, nor is the variance where light is 0.03 or more. Not measured where the
+  /// cells were too small.
   NoiseModel model() const;
 
  private:
   void add_tag(const Frame& frame, const TrackRow& row, const tracking::BundledTag& tag);
-  /// Of one ink, less the ones that stand out; of `paper` what is like it.
+  /// Of one ink, or of the `paper` that is like it.
   void add_alike(std::span<const FlatPatch> flats, std::span<const FlatPatch> paper);
   void add(const FlatPatch& flat);
 
