@@ -1,4 +1,4 @@
-// Measures the footage's noise where its picture is known to be flat: inside the cells of the tag's print.
+// Measures the footage's noise where its picture is known to be flat: inside the cells of the tag's print, and on its sheet.
 #pragma once
 
 #include <span>
@@ -25,6 +25,8 @@ struct FlatPatch {
 /// shading nor the codec's coarser chroma counts as more or less noise; degrees of freedom and the variance of rounding (1/12
 /// code^2) are allowed for. Cells that are not flat (dust, a shadow's edge, the object's cover) stand out from the others' median
 /// and are left out.
+/// Codecs keep less noise near the print's edges than on a plain: cells of the sheet around it that are as bright as its white,
+/// and do not stand out either, count instead where there are as many.
 class NoiseMeter {
  public:
   NoiseMeter(const CameraModel& camera, const tracking::TagTarget& target) : camera_(camera), target_(target) {}

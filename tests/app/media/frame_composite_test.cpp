@@ -212,7 +212,7 @@ TEST(WithComposite, AnObjectHasTheFootagesResolutionOfColourUnlessItIsMadeFullCo
       const render::Plate plate = frame.with_composite(composite).rgb({10, 10, 2, 1});
       const auto red_less_blue = [&](std::size_t pixel) {
         const auto code = [&](std::size_t c) {
-          if (plate.format == render::PlateFormat::rgb8) return std::to_integer<int>(plate.pixels[3 * pixel + c]) / 255.0;
+          if (plate.format == render::Plate::Format::rgb_u8) return std::to_integer<int>(plate.pixels[3 * pixel + c]) / 255.0;
           return (std::to_integer<int>(plate.pixels[6 * pixel + 2 * c]) +
                   256 * std::to_integer<int>(plate.pixels[6 * pixel + 2 * c + 1])) /
                  65535.0;
