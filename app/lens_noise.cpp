@@ -20,7 +20,10 @@ constexpr double kReachSigmas = 3, kReachPx = 1;        ///< how far an edge's l
 constexpr std::size_t kFewestBlocks = 8;                ///< in a cell
 constexpr double kMostOfMedian = 2.5;                   ///< a cell with more variance is not flat
 constexpr double kDarkest = 0.004, kBrightest = 0.985;  ///< codes beyond are clipped
-constexpr double kMostPixels = 40'000;                  ///< looked at in a frame
+constexpr double kMostPixels = 100'000;                 ///< looked at in a frame
+constexpr double kNoiselessLight = 0.03;                ///< the darkest that may be without noise
+constexpr int kPaperCells = 4;                          ///< of the sheet around the print
+constexpr double kPaperLikeness = 0.15;                 ///< the sheet's light differs by no more from the print's white
 constexpr double kWeightFloor = 0.02;                   ///< variance grows about as light + this, so that its own error does too
 
 /// What is left of values at places after their best plane.
@@ -42,12 +45,23 @@ void take_off_plane(const std::vector<glm::dvec2>& places, std::vector<Value>& v
   }
 }
 
+/// A plane needs places that are not on one line, as a narrow cell's may be.
+bool span_a_plane(const std::vector<glm::dvec2>& places) {
+  constexpr double kLeastSpread = 0.1;  // two rows of four have 0.3
+  glm::dvec2 middle(0.0);
+  glm::dmat2 spread(0.0);
+  const double share = 1.0 / static_cast<double>(places.size());
+  for (const glm::dvec2& place : places) middle += share * place;
+  for (const glm::dvec2& place : places) spread += share * glm::outerProduct(place - middle, place - middle);
+  return glm::determinant(spread) >= kLeastSpread;
+}
+
 /// The blocks of a cell that no edge's light reaches.
 struct CellBlocks {
   std::vector<glm::dvec2> block_places, pixel_places;
   std::vector<glm::dvec3> color;
   std::vector<double> luma, block_luma;
-  bool is_clipped = false;
+  bool is_clipped = false, is_on_print = true;
 };
 
 void add_block(const CodePlanes& planes, int column, int row, CellBlocks& cell) {
@@ -82,24 +96,25 @@ Value mean(const std::vector<Value>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-/// Non-negative least squares of two unknowns.
+/// Least squares of slope and floor, from sums of weight, light, variance and their products. The slope is not negative; the
+/// floor may be by a little: codecs wipe out what is left of the grain in the dark.
 glm::dvec2 line(double w, double wi, double wii, double wv, double wiv) {
   if (!(w > 0 && wii > 0)) return glm::dvec2(0.0);
   const double determinant = w * wii - wi * wi;
-  if (determinant > 1e-6 * w * wii) {
-    const double slope = (w * wiv - wi * wv) / determinant, floor = (wii * wv - wi * wiv) / determinant;
-    if (slope >= 0 && floor >= 0) return {slope, floor};
-    if (slope < 0) return {0, std::max(wv / w, 0.0)};
-  }
-  return {std::max(wiv / wii, 0.0), 0};
+  if (determinant <= 1e-6 * w * wii) return {std::max(wiv / wii, 0.0), 0};
+  const double slope = (w * wiv - wi * wv) / determinant, floor = (wii * wv - wi * wiv) / determinant;
+  if (slope < 0) return {0, std::max(wv / w, 0.0)};
+  if (floor >= -kNoiselessLight * slope) return {slope, floor};
+  const double through = (wiv - kNoiselessLight * wv) / (wii - 2 * kNoiselessLight * wi + kNoiselessLight * kNoiselessLight * w);
+  return through > 0 ? glm::dvec2(through, -kNoiselessLight * through) : glm::dvec2(0.0);
 }
 
-/// By cell: what of the print is far enough from every edge.
+/// By cell: what of the print, and of the sheet that may go on around it, is far enough from every edge of the print.
 std::vector<CellBlocks> cells_of(const CodePlanes& planes, const CameraModel& camera, const RigidTransform& camera_from_tag,
                                  const tracking::BundledTag& tag, const tracking::Covariance2& blur_px2) {
   const tracking::TagPattern pattern(tracking::tag_layout(tag.family, tag.id));
   const tracking::TagView view(camera, camera_from_tag, tag.size_m, pattern.cells_across());
-  const int margin = pattern.margin(), side = pattern.cells_across() + 2 * margin;
+  const int margin = pattern.margin() + kPaperCells, side = pattern.cells_across() + 2 * margin;
   const glm::dvec2 block(1 << planes.block_shift.x, 1 << planes.block_shift.y);
   const double reach_px =
       kReachSigmas * std::sqrt(std::max(blur_px2.xx, blur_px2.yy)) + kReachPx + 0.5 * glm::length(block - 1.0);
@@ -120,7 +135,29 @@ std::vector<CellBlocks> cells_of(const CodePlanes& planes, const CameraModel& ca
       if (cell.x < 0 || cell.y < 0 || cell.x >= side || cell.y >= side) continue;
       add_block(planes, x, y, cells[static_cast<std::size_t>(cell.y * side + cell.x)]);
     }
+  for (int row = 0; row < side; ++row)
+    for (int column = 0; column < side; ++column)
+      cells[static_cast<std::size_t>(row * side + column)].is_on_print =
+          std::min({column, row, side - 1 - column, side - 1 - row}) >= kPaperCells;
   return cells;
+}
+
+double trace(const glm::dmat3& m) {
+  return m[0][0] + m[1][1] + m[2][2];
+}
+
+/// Covariance of RGB less luma.
+glm::dmat3 of_color(const glm::dmat3& covariance) {
+  const glm::dmat3 less_luma = glm::dmat3(1.0) - glm::outerProduct(glm::dvec3(1.0), kLuminanceWeights);
+  return less_luma * covariance * glm::transpose(less_luma);
+}
+
+/// The pixels of print and sheet.
+PixelRect region_of(const CameraModel& camera, const RigidTransform& camera_from_tag, const tracking::BundledTag& tag) {
+  const tracking::TagLayout layout = tracking::tag_layout(tag.family, tag.id);
+  tracking::BundledTag larger = tag;
+  larger.size_m *= static_cast<double>(layout.side() + 2 * kPaperCells) / layout.side();
+  return tracking::photometry_region(camera, camera_from_tag, tracking::TagTarget{larger, {}});
 }
 
 FlatPatch flat_of(CellBlocks& cell, const glm::dmat3& rounding, const render::PlateColor& response) {
@@ -131,6 +168,7 @@ FlatPatch flat_of(CellBlocks& cell, const glm::dmat3& rounding, const render::Pl
   FlatPatch flat;
   for (const double luma : cell.luma) flat.luma_variance += luma * luma / static_cast<double>(cell.luma.size() - 3);
   flat.freedom = static_cast<double>(cell.color.size() - 3);
+  flat.is_on_print = cell.is_on_print;
   glm::dmat3 covariance = glm::outerProduct(one, one) * flat.luma_variance;
   for (std::size_t i = 0; i < cell.color.size(); ++i) {
     const glm::dvec3& color = cell.color[i];
@@ -143,7 +181,11 @@ FlatPatch flat_of(CellBlocks& cell, const glm::dmat3& rounding, const render::Pl
     slope[c] = slope_at(response, code[c], c);
     flat.light[c] = linear_from_code(response, code[c], c);
   }
-  flat.covariance = glm::matrixCompMult(covariance - rounding, glm::outerProduct(slope, slope));
+  // Colour that varies by less than a code is not rounded at random: no more is taken off than there is.
+  const glm::dmat3 of_luma = glm::outerProduct(one, one) * glm::dot(kLuminanceWeights, rounding * kLuminanceWeights);
+  const double rounded = trace(of_color(rounding)), seen = trace(of_color(covariance));
+  const glm::dmat3 taken_off = of_luma + (rounding - of_luma) * (rounded > 0 ? std::clamp(seen / rounded, 0.0, 1.0) : 0.0);
+  flat.covariance = glm::matrixCompMult(covariance - taken_off, glm::outerProduct(slope, slope));
   return flat;
 }
 
@@ -156,28 +198,41 @@ void NoiseMeter::add(const Frame& frame, const TrackRow& row) {
 
 void NoiseMeter::add_tag(const Frame& frame, const TrackRow& row, const tracking::BundledTag& tag) {
   const RigidTransform camera_from_tag = row.camera_from_tag * tag.tag_from_this;
-  const CodePlanes planes =
-      code_planes(frame, tracking::photometry_region(camera_, camera_from_tag, tracking::TagTarget{tag, {}}));
+  const CodePlanes planes = code_planes(frame, region_of(camera_, camera_from_tag, tag));
   if (planes.rect.empty()) return;
   std::vector<FlatPatch> flats;
   for (CellBlocks& cell : cells_of(planes, camera_, camera_from_tag, tag, row.blur_px2))
-    if (cell.color.size() >= kFewestBlocks && !cell.is_clipped) flats.push_back(flat_of(cell, planes.rounding, frame.color()));
-  if (flats.empty()) return;
+    if (cell.color.size() >= kFewestBlocks && !cell.is_clipped && span_a_plane(cell.block_places))
+      flats.push_back(flat_of(cell, planes.rounding, frame.color()));
+  const auto paper = std::ranges::partition(flats, &FlatPatch::is_on_print);
+  const std::span<const FlatPatch> print(flats.begin(), paper.begin());
+  if (print.empty()) return;
   // Each ink by itself: what is much for black is little for white.
-  const auto [low, high] = std::ranges::minmax_element(flats, {}, [](const FlatPatch& flat) { return flat.light.g; });
+  const auto [low, high] = std::ranges::minmax_element(print, {}, [](const FlatPatch& flat) { return flat.light.g; });
   const double between = (low->light.g + high->light.g) / 2;
-  const auto white = std::ranges::partition(flats, [&](const FlatPatch& flat) { return flat.light.g <= between; });
-  add_alike({flats.begin(), white.begin()});
-  add_alike({white.begin(), white.end()});
+  std::vector<FlatPatch> black, white;
+  for (const FlatPatch& flat : print) (flat.light.g <= between ? black : white).push_back(flat);
+  add_alike(black, {});
+  add_alike(white, paper);
 }
 
-void NoiseMeter::add_alike(std::span<const FlatPatch> flats) {
+void NoiseMeter::add_alike(std::span<const FlatPatch> flats, std::span<const FlatPatch> paper) {
   if (flats.empty()) return;
   std::vector<double> variances;
-  for (const FlatPatch& flat : flats) variances.push_back(flat.luma_variance);
+  glm::dvec3 light(0.0);
+  for (const FlatPatch& flat : flats) {
+    variances.push_back(flat.luma_variance);
+    light += flat.light / static_cast<double>(flats.size());
+  }
   const double most = kMostOfMedian * tracking::median(std::move(variances));
-  for (const FlatPatch& flat : flats)
-    if (flat.luma_variance <= most) add(flat);
+  std::vector<FlatPatch> counted;
+  for (const FlatPatch& flat : paper)
+    if (flat.luma_variance <= most && glm::all(glm::lessThan(glm::abs(flat.light - light), kPaperLikeness * light)))
+      counted.push_back(flat);
+  if (counted.size() < flats.size())
+    for (const FlatPatch& flat : flats)
+      if (flat.luma_variance <= most) counted.push_back(flat);
+  for (const FlatPatch& flat : counted) add(flat);
 }
 
 void NoiseMeter::add(const FlatPatch& flat) {

@@ -1,4 +1,4 @@
-// Measures the footage's noise where its picture is known to be flat: inside the cells of the tag's print.
+// Measures the footage's noise where its picture is known to be flat: inside the cells of the tag's print, and on its sheet.
 #pragma once
 
 #include <span>
@@ -17,6 +17,7 @@ struct FlatPatch {
   glm::dmat3 covariance{0.0};  ///< of it
   double luma_variance = 0;    ///< in codes
   double freedom = 0;          ///< degrees of it
+  bool is_on_print = true;     ///< or on what may be the sheet around it
 };
 
 /// White cells give the noise of one brightness, black cells of another, and changing exposure of more; every frame adds to the
@@ -24,6 +25,8 @@ struct FlatPatch {
 /// shading nor the codec's coarser chroma counts as more or less noise; degrees of freedom and the variance of rounding (1/12
 /// code^2) are allowed for. Cells that are not flat (dust, a shadow's edge, the object's cover) stand out from the others' median
 /// and are left out.
+/// Codecs keep less noise near the print's edges than on a plain: cells of the sheet around it that are as bright as its white,
+/// and do not stand out either, count instead where there are as many.
 class NoiseMeter {
  public:
   NoiseMeter(const CameraModel& camera, const tracking::TagTarget& target) : camera_(camera), target_(target) {}
@@ -31,13 +34,14 @@ class NoiseMeter {
   /// Counts where the row's tag was seen and its blur measured.
   void add(const Frame& frame, const TrackRow& row);
 
-  /// By weighted least squares; neither slope nor floor is negative. Not measured where the cells were too small.
+  /// By weighted least squares; slopes are not negative, nor is the variance where light is 0.03 or more. Not measured where the
+  /// cells were too small.
   NoiseModel model() const;
 
  private:
   void add_tag(const Frame& frame, const TrackRow& row, const tracking::BundledTag& tag);
-  /// Of one ink, less the ones that stand out.
-  void add_alike(std::span<const FlatPatch> flats);
+  /// Of one ink, or of the `paper` that is like it.
+  void add_alike(std::span<const FlatPatch> flats, std::span<const FlatPatch> paper);
   void add(const FlatPatch& flat);
 
   CameraModel camera_;

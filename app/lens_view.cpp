@@ -17,7 +17,7 @@ constexpr double kPixelBlur_px2 = 1.0 / 12, kLeastDefocus_px2 = 0.02;
 constexpr double kFilmShutter = 0.5;  ///< 180 degrees: where motion blur is asked for and the footage does not say how much
 
 glm::dmat3 covariance(const NoiseModel& noise, double light) {
-  const glm::dvec3 sigma = glm::sqrt(noise.slope * light + noise.floor);
+  const glm::dvec3 sigma = glm::sqrt(glm::max(noise.slope * light + noise.floor, 0.0));
   const auto& [rg, rb, gb] = std::tuple{noise.correlation.x, noise.correlation.y, noise.correlation.z};
   const glm::dmat3 correlation{{1, rg, rb}, {rg, 1, gb}, {rb, gb, 1}};
   return glm::matrixCompMult(correlation, glm::outerProduct(sigma, sigma));

@@ -20,7 +20,8 @@ float gaussian(ivec2 place, uint stream) {
 // the object covers.
 vec3 missing_noise(ivec2 pixel, vec3 light, vec3 background, vec3 kept) {
   vec3 slope = composite.noise_slope.rgb, floor_ = composite.noise_floor.rgb;
-  vec3 wanted = slope * max(light, 0.0) + floor_, there = kept * kept * (slope * max(background, 0.0) + floor_);
+  vec3 wanted = max(slope * max(light, 0.0) + floor_, 0.0);
+  vec3 there = kept * kept * max(slope * max(background, 0.0) + floor_, 0.0);
   ivec2 block = pixel >> composite.noise.zw;
   vec3 unit = mat3(composite.noise_mix) * vec3(gaussian(block, 0u), gaussian(block, 1u), gaussian(pixel, 2u));
   return sqrt(max(wanted - there, 0.0)) * unit;

@@ -1,6 +1,7 @@
 // Frame::with_composite(): what is touched, what is not, and which codes are written.
 #include <random>
 
+#include "app/media/full_color.hpp"
 #include "media_fixture.hpp"
 
 extern "C" {
@@ -196,6 +197,32 @@ TEST(WithComposite, PaintingThePlateOnAPartOfABlockDoesNotMoveItsChroma) {
       const int row = y * before.picture().linesize[p];
       ASSERT_EQ(std::memcmp(before.picture().data[p] + row, after.picture().data[p] + row, kWidth / 2), 0);
     }
+  }
+}
+
+// Upright stripes of red and blue, a pixel wide: 4:2:0 has one colour for both, full colour each its own. 16-bit footage alike.
+TEST(WithComposite, AnObjectHasTheFootagesResolutionOfColourUnlessItIsMadeFullColour) {
+  render::Composite composite;
+  composite.rect = {4, 4, 16, 16};
+  for (int i = 0; i < 16 * 16; ++i)
+    for (const float value : {i % 2 ? 0.75f : 0.25f, 0.5f, i % 2 ? 0.25f : 0.75f, 1.0f}) composite.rgba.push_back(value);
+  for (const AVPixelFormat format : {AV_PIX_FMT_YUV420P, AV_PIX_FMT_YUV420P10LE}) {
+    const Frame footage = frame_of(noise_frame(format, kWidth, kHeight, 9));
+    const auto stripes = [&](const Frame& frame) {  // how much redder the second of two neighbours is, of 1
+      const render::Plate plate = frame.with_composite(composite).rgb({10, 10, 2, 1});
+      const auto red_less_blue = [&](std::size_t pixel) {
+        const auto code = [&](std::size_t c) {
+          if (plate.format == render::Plate::Format::rgb_u8) return std::to_integer<int>(plate.pixels[3 * pixel + c]) / 255.0;
+          return (std::to_integer<int>(plate.pixels[6 * pixel + 2 * c]) +
+                  256 * std::to_integer<int>(plate.pixels[6 * pixel + 2 * c + 1])) /
+                 65535.0;
+        };
+        return code(0) - code(2);
+      };
+      return red_less_blue(1) - red_less_blue(0);
+    };
+    EXPECT_NEAR(stripes(footage), 0, 0.02) << format;
+    EXPECT_NEAR(stripes(with_full_color(footage)), 1, 0.02) << format;
   }
 }
 
