@@ -21,7 +21,9 @@ GlProgram fragment_program(const char* name, const std::string& folder) {
 
 GlarePass::GlarePass(const GlareSettings& settings, const std::string& shader_folder)
     : settings_(settings),
-      filter_(fragment_program("glare_filter.frag", shader_folder)),
+      filter_rows_("glare_filter.frag", shader_folder, "#define AXIS 0\n"),
+      filter_rows_with_emission_("glare_filter.frag", shader_folder, "#define AXIS 0\n#define EMISSION\n"),
+      filter_columns_("glare_filter.frag", shader_folder, "#define AXIS 1\n"),
       bright_(fragment_program("glare_bright.frag", shader_folder)),
       blur_(shader_folder),
       bloom_(shader_folder),
@@ -47,22 +49,25 @@ void GlarePass::make_targets(int frame_width, int frame_height) {
   streaks_.resize(grid_.columns, grid_.rows);
 }
 
+/// Pixel `first_pixel` of the frame is the first of `source_size` along the filter's axis.
+void GlarePass::use_filter(const TapPrograms& programs, int first_pixel, int source_size) const {
+  const GLuint program = programs.with(static_cast<int>(std::floor(4 * grid_.texel_px)) + 1);
+  glUseProgram(program);
+  glProgramUniform1i(program, 1, first_pixel);
+  glProgramUniform1i(program, 2, source_size);
+  glProgramUniform1f(program, 3, static_cast<float>(grid_.texel_px));
+}
+
 /// The object's light on the grid: first along the pixels' rows, then down the columns.
 void GlarePass::filter(const GlTexture& object, const GlTexture* emission, const PixelRect& rect) {
   if (!filtered_rows_ || filtered_rows_->width() != grid_.columns || filtered_rows_->height() < rect.height)
     filtered_rows_ = std::make_unique<ColorTarget<1>>(make_glare_target("rows to glare", grid_.columns, roomy(rect.height)));
   clear(*light_);
-  glUseProgram(filter_.id());
-  const GLuint program = filter_.id();
-  glProgramUniform2i(program, 1, rect.x, rect.y);
-  glProgramUniform2i(program, 2, rect.width, rect.height);
-  glProgramUniform1f(program, 3, static_cast<float>(grid_.texel_px));
-  glProgramUniform1i(program, 4, emission != nullptr);
-  glProgramUniform2i(program, 0, 1, 0);
+  use_filter(emission ? filter_rows_with_emission_ : filter_rows_, rect.x, rect.width);
   glBindTextureUnit(TEXTURE_SOURCE, object.id());
   glBindTextureUnit(TEXTURE_EMISSION, (emission ? *emission : object).id());
   draw_over(*filtered_rows_, {bright_texels_.x, 0, bright_texels_.width, rect.height});
-  glProgramUniform2i(program, 0, 0, 1);
+  use_filter(filter_columns_, rect.y, rect.height);
   glBindTextureUnit(TEXTURE_SOURCE, filtered_rows_->texture().id());
   draw_over(*light_, bright_texels_);
 }
