@@ -40,7 +40,7 @@ class GlarePass {
   void filter(const GlTexture& object, const GlTexture* emission, const PixelRect& rect);
   void use_filter(const TapPrograms& programs, int first_pixel, int source_size) const;
   void attach_parts();
-  void add_streaks(const GlTexture& excess, int directions, double reach_texels, const PixelRect& texels) const;
+  void add_streaks(const GlTexture& source, int directions, const StreakGrid& on, double reach_texels, const PixelRect& texels);
 
   GlareSettings settings_;
   TapPrograms filter_rows_, filter_rows_with_emission_, filter_columns_;

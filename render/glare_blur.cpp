@@ -4,8 +4,7 @@
 
 namespace catchlight::render {
 
-GlareBlur::GlareBlur(const std::string& shader_folder)
-    : programs_("glare_blur.frag", shader_folder) {}
+GlareBlur::GlareBlur(const std::string& shader_folder) : programs_("glare_blur.frag", shader_folder) {}
 
 void GlareBlur::add(const GlTexture& source, const ColorTarget<1>& scratch, const ColorTarget<1>& target,
                     std::span<const float> taps, const PixelRect& texels) const {

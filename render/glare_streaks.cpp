@@ -4,8 +4,7 @@
 
 namespace catchlight::render {
 
-StreakPass::StreakPass(const std::string& shader_folder)
-    : programs_("glare_streak.frag", shader_folder) {}
+StreakPass::StreakPass(const std::string& shader_folder) : programs_("glare_streak.frag", shader_folder) {}
 
 void StreakPass::resize(int columns, int rows) {
   between_.clear();

@@ -1,5 +1,6 @@
-// A fragment program for each number of taps. With the number known when it is compiled its loop unrolls and the weights have fixed
-// places; a loop of unknown length over a uniform array costs a software rasteriser several times as much, and all of the array.
+// A fragment program for each number of taps. With the number known when it is compiled its loop unrolls and the weights have
+// fixed places; a loop of unknown length over a uniform array costs a software rasteriser several times as much, and all of the
+// array.
 #pragma once
 
 #include <map>
