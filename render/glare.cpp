@@ -21,7 +21,9 @@ GlProgram fragment_program(const char* name, const std::string& folder) {
 
 GlarePass::GlarePass(const GlareSettings& settings, const std::string& shader_folder)
     : settings_(settings),
-      filter_(fragment_program("glare_filter.frag", shader_folder)),
+      filter_rows_("glare_filter.frag", shader_folder, "#define AXIS 0\n"),
+      filter_rows_with_emission_("glare_filter.frag", shader_folder, "#define AXIS 0\n#define EMISSION\n"),
+      filter_columns_("glare_filter.frag", shader_folder, "#define AXIS 1\n"),
       bright_(fragment_program("glare_bright.frag", shader_folder)),
       blur_(shader_folder),
       bloom_(shader_folder),
@@ -41,10 +43,18 @@ void GlarePass::make_targets(int frame_width, int frame_height) {
   reflected_.reset();
   emitted_.reset();
   scratch_ = target("glare rows");
-  narrow_ = target("streak source");
   glow_ = target("glare");
   bloom_.resize(grid_.columns, grid_.rows, grid_.rows_per_height(frame_height));
-  streaks_.resize(grid_.columns, grid_.rows);
+  narrow_.reset();
+}
+
+/// Pixel `first_pixel` of the frame is the first of `source_size` along the filter's axis.
+void GlarePass::use_filter(const TapPrograms& programs, int first_pixel, int source_size) const {
+  const GLuint program = programs.with(static_cast<int>(std::floor(4 * grid_.texel_px)) + 1);
+  glUseProgram(program);
+  glProgramUniform1i(program, 1, first_pixel);
+  glProgramUniform1i(program, 2, source_size);
+  glProgramUniform1f(program, 3, static_cast<float>(grid_.texel_px));
 }
 
 /// The object's light on the grid: first along the pixels' rows, then down the columns.
@@ -52,17 +62,11 @@ void GlarePass::filter(const GlTexture& object, const GlTexture* emission, const
   if (!filtered_rows_ || filtered_rows_->width() != grid_.columns || filtered_rows_->height() < rect.height)
     filtered_rows_ = std::make_unique<ColorTarget<1>>(make_glare_target("rows to glare", grid_.columns, roomy(rect.height)));
   clear(*light_);
-  glUseProgram(filter_.id());
-  const GLuint program = filter_.id();
-  glProgramUniform2i(program, 1, rect.x, rect.y);
-  glProgramUniform2i(program, 2, rect.width, rect.height);
-  glProgramUniform1f(program, 3, static_cast<float>(grid_.texel_px));
-  glProgramUniform1i(program, 4, emission != nullptr);
-  glProgramUniform2i(program, 0, 1, 0);
+  use_filter(emission ? filter_rows_with_emission_ : filter_rows_, rect.x, rect.width);
   glBindTextureUnit(TEXTURE_SOURCE, object.id());
   glBindTextureUnit(TEXTURE_EMISSION, (emission ? *emission : object).id());
   draw_over(*filtered_rows_, {bright_texels_.x, 0, bright_texels_.width, rect.height});
-  glProgramUniform2i(program, 0, 0, 1);
+  use_filter(filter_columns_, rect.y, rect.height);
   glBindTextureUnit(TEXTURE_SOURCE, filtered_rows_->texture().id());
   draw_over(*light_, bright_texels_);
 }
@@ -115,33 +119,47 @@ PixelRect GlarePass::spread() {
   const PixelRect texels = intersect({light.x - grow, light.y - grow, light.width + 2 * grow, light.height + 2 * grow},
                                      {0, 0, grid_.columns, grid_.rows});
   clear(*glow_);
-  if (settings_.bloom_strength > 0)
-    bloom_.add(excess_->texture(), static_cast<float>(settings_.bloom_strength), *scratch_, *glow_, texels, blur_);
+  bloom_.blur(excess_->texture(), static_cast<float>(settings_.bloom_strength), *scratch_, *glow_, texels, blur_);
   if (settings_.streak_strength > 0) {
-    add_streaks((divided_ ? *reflected_ : *excess_).texture(), settings_.streak_directions, reach.streak_texels, texels);
-    if (divided_) add_streaks(emitted_->texture(), settings_.emitter_directions, reach.streak_texels, texels);
+    StreakGrid on = streak_grid(settings_, rows_per_height);
+    // The two parts of the excess are not in the pyramid.
+    if (divided_) on = {0, std::pow(kStreakSigma_heights * rows_per_height, 2)};
+    const GlTexture& source = divided_        ? reflected_->texture()
+                              : on.level == 0 ? excess_->texture()
+                                              : bloom_.level(on.level).shrunk.texture();
+    add_streaks(source, settings_.streak_directions, on, reach.streak_texels, texels);
+    if (divided_) add_streaks(emitted_->texture(), settings_.emitter_directions, on, reach.streak_texels, texels);
   }
+  bloom_.gather(*glow_, texels);
   return intersect(grid_.pixels(texels), {0, 0, frame_width_, frame_height_});
 }
 
-void GlarePass::add_streaks(const GlTexture& excess, int directions, double reach_texels, const PixelRect& texels) const {
-  const double rows_per_height = grid_.rows_per_height(frame_height_);
-  const std::vector<double> wide = gaussian_taps(std::pow(kStreakSigma_heights * rows_per_height, 2));
+void GlarePass::add_streaks(const GlTexture& source, int directions, const StreakGrid& on, double reach_texels,
+                            const PixelRect& texels) {
+  const double rows_per_height = grid_.rows_per_height(frame_height_) / std::exp2(on.level);
+  const ColorTarget<1>& target = on.level == 0 ? *glow_ : bloom_.level(on.level).glow;
+  const ColorTarget<1>& scratch = on.level == 0 ? *scratch_ : bloom_.level(on.level).scratch;
+  const PixelRect reached = on.level == 0 ? texels : bloom_.texels_at(texels, on.level);
+  if (!narrow_ || narrow_->width() != target.width() || narrow_->height() != target.height()) {
+    narrow_ = std::make_unique<ColorTarget<1>>(make_glare_target("streak source", target.width(), target.height()));
+    streaks_.resize(target.width(), target.height());
+  }
   clear(*narrow_);
   streaks_.begin();
+  const std::vector<double> wide = gaussian_taps(on.own_blur);
   const std::vector<float> taps(wide.begin(), wide.end());
-  blur_.add(excess, *scratch_, *narrow_, taps, texels);
+  blur_.add(source, scratch, *narrow_, taps, reached);
 
   const glm::dvec3 log_per_texel = streak_log_per_height(settings_) / rows_per_height;
-  const int passes = streak_pass_count(settings_, reach_texels);
+  const int passes = streak_pass_count(settings_, reach_texels / std::exp2(on.level));
   StreakTap half_of_first{{0, 0}, glm::vec3(0)};
   for (const glm::dvec2& direction : streak_directions(directions, settings_.streak_rotation_deg)) {
     // Neither their number nor the passes nor the resolution changes the brightness.
     const glm::dvec3 gain = settings_.streak_strength / directions / streak_sum(direction, log_per_texel, passes);
-    streaks_.add(narrow_->texture(), streak_passes(direction, log_per_texel, passes, gain), *glow_, texels);
+    streaks_.add(narrow_->texture(), streak_passes(direction, log_per_texel, passes, gain), target, reached);
     half_of_first.weight -= glm::vec3(0.5 * gain);
   }
-  streaks_.add(narrow_->texture(), {{half_of_first}}, *glow_, texels);
+  streaks_.add(narrow_->texture(), {{half_of_first}}, target, reached);
 }
 
 Image GlarePass::read_excess() const {

@@ -9,6 +9,7 @@
 #include "render/glare_bloom.hpp"
 #include "render/glare_plan.hpp"
 #include "render/glare_streaks.hpp"
+#include "render/tap_programs.hpp"
 
 namespace catchlight::render {
 
@@ -37,11 +38,13 @@ class GlarePass {
  private:
   void make_targets(int frame_width, int frame_height);
   void filter(const GlTexture& object, const GlTexture* emission, const PixelRect& rect);
+  void use_filter(const TapPrograms& programs, int first_pixel, int source_size) const;
   void attach_parts();
-  void add_streaks(const GlTexture& excess, int directions, double reach_texels, const PixelRect& texels) const;
+  void add_streaks(const GlTexture& source, int directions, const StreakGrid& on, double reach_texels, const PixelRect& texels);
 
   GlareSettings settings_;
-  GlProgram filter_, bright_;
+  TapPrograms filter_rows_, filter_rows_with_emission_, filter_columns_;
+  GlProgram bright_;
   GlareBlur blur_;
   BloomPass bloom_;
   StreakPass streaks_;

@@ -31,7 +31,6 @@ void BloomPass::resize(int columns, int rows, double rows_per_height) {
   }
 }
 
-/// Texels of a level that touch these of the grid, and as many around them as the way up reads.
 PixelRect BloomPass::texels_at(const PixelRect& texels, int level) const {
   constexpr int kAround = 3;
   const ColorTarget<1>& target = levels_[static_cast<std::size_t>(level) - 1].shrunk;
@@ -73,23 +72,26 @@ BloomPass::Brightness BloomPass::brightness() const {
   return {step * step * std::max({sum.r, sum.g, sum.b}), texels};
 }
 
-void BloomPass::add(const GlTexture& excess, float strength, const ColorTarget<1>& scratch, const ColorTarget<1>& target,
-                    const PixelRect& texels, const GlareBlur& blur) const {
-  for (const Level& level : levels_) clear(level.glow);
+void BloomPass::blur(const GlTexture& excess, float strength, const ColorTarget<1>& scratch, const ColorTarget<1>& target,
+                     const PixelRect& texels, const GlareBlur& blur) const {
+  for (const Level& each : levels_) clear(each.glow);
+  if (strength <= 0) return;
   for (const BloomBlur& step : blurs_) {
+    std::vector<float> taps = step.taps;
+    for (float& tap : taps) tap *= std::sqrt(strength);
     if (step.level == 0) {
-      std::vector<float> taps = step.taps;
-      for (float& tap : taps) tap *= std::sqrt(strength);
       blur.add(excess, scratch, target, taps, texels);
     } else {
-      const Level& level = levels_[static_cast<std::size_t>(step.level) - 1];
-      blur.add(level.shrunk.texture(), level.scratch, level.glow, step.taps, texels_at(texels, step.level));
+      const Level& at = level(step.level);
+      blur.add(at.shrunk.texture(), at.scratch, at.glow, taps, texels_at(texels, step.level));
     }
   }
+}
+
+void BloomPass::gather(const ColorTarget<1>& target, const PixelRect& texels) const {
   glUseProgram(up_.id());
   const AdditiveBlending blending;
   for (std::size_t k = levels_.size(); k-- > 0;) {
-    glProgramUniform1f(up_.id(), 0, k == 0 ? strength : 1.0f);
     glBindTextureUnit(TEXTURE_COARSER, levels_[k].glow.texture().id());
     draw_over(k == 0 ? target : levels_[k - 1].glow, k == 0 ? texels : texels_at(texels, static_cast<int>(k)));
   }

@@ -25,17 +25,22 @@ class BloomPass {
   };
   Brightness brightness() const;
 
-  /// Adds `strength` times the bloom to `target`, of the grid's size, over `texels`.
-  void add(const GlTexture& excess, float strength, const ColorTarget<1>& scratch, const ColorTarget<1>& target,
-           const PixelRect& texels, const GlareBlur& blur) const;
-
- private:
+  /// The halvings by number, from 1: the excess, and what glows of it there.
   struct Level {
     ColorTarget<1> shrunk, scratch, glow;
   };
-
+  const Level& level(int number) const { return levels_[static_cast<std::size_t>(number) - 1]; }
+  /// Texels of a level that touch these of the grid, and as many around them as the way up reads.
   PixelRect texels_at(const PixelRect& texels, int level) const;
 
+  /// Makes `strength` times the bloom, at its levels and, for what needs the grid itself, in `target`.
+  void blur(const GlTexture& excess, float strength, const ColorTarget<1>& scratch, const ColorTarget<1>& target,
+            const PixelRect& texels, const GlareBlur& blur) const;
+
+  /// Adds what glows at all levels to `target`, of the grid's size, over `texels`.
+  void gather(const ColorTarget<1>& target, const PixelRect& texels) const;
+
+ private:
   GlProgram down_, up_;
   std::vector<BloomBlur> blurs_;
   std::vector<Level> levels_;  ///< the first has half of the grid's resolution

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "render/glare_target.hpp"
+#include "render/tap_programs.hpp"
 
 namespace catchlight::render {
 
@@ -17,7 +18,7 @@ class GlareBlur {
            const PixelRect& texels) const;
 
  private:
-  GlProgram program_;
+  TapPrograms programs_;
 };
 
 }  // namespace catchlight::render

@@ -9,7 +9,7 @@
 namespace catchlight::render {
 
 /// Light that a pixel of 1 adds to the pixels around it, strengths included; its centre is pixel (width / 2, height / 2), rounded
-/// down. `frame_height_px`: rows of the picture to be convolved; below 240 a streak is narrower than the pixels can show. Bloom:
+/// down. `frame_height_px`: rows of the picture to be convolved; below 120 a streak is narrower than the pixels can show. Bloom:
 /// the sum of w / (2 pi s^2) exp(-r^2 / 2 s^2) over bloom_gaussians(). A streak along u, across v: l exp(-l u) for u > 0
 /// convolved with the Gaussian of kStreakSigma_heights in both, where l = -ln a per pixel; the strength is shared by the
 /// directions.

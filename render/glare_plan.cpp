@@ -14,8 +14,11 @@ constexpr double kReferenceRows = 480.0;
 constexpr double kNarrowest_heights = 0.006, kFalloff = 0.65;
 /// Variance of the filter that halves the resolution, (1 3 3 1) / 8, and of a cubic B-spline; texels squared.
 constexpr double kDownVariance = 0.75, kUpVariance = 1.0 / 3.0;
-/// A level's own blur is at least as wide as this (texels squared), so that its texels do not show.
-constexpr double kLeastBlur = 1.0;
+/// A level's own blur is at least as wide as this (texels squared), so that its texels do not show; a streak, fainter where it is
+/// sharp, may do without, and be wider than stated by this much.
+constexpr double kLeastBlur = 1.0, kLeastStreakBlur = -0.01;
+/// A streak's steps are at most so long: what is left after one is above exp(-0.6). Coarser steps show in its profile.
+constexpr double kLongestStep = 0.6;
 /// Light below this is not worth drawing: a quarter of an 8-bit sRGB code in black is 7.6e-5.
 constexpr double kInvisible = 2e-5;
 
@@ -84,6 +87,8 @@ std::array<BloomGaussian, kBloomGaussians> bloom_gaussians() {
 }
 
 std::vector<double> gaussian_taps(double variance) {
+  // So narrow a Gaussian is no longer told by samples at the texels' centres: three taps of its variance.
+  if (variance < 0.25) return {1 - std::max(variance, 0.0), 0.5 * std::max(variance, 0.0)};
   const int radius = std::clamp(static_cast<int>(std::ceil(3.5 * std::sqrt(variance))), 1, MAX_GLARE_BLUR_TAPS - 1);
   std::vector<double> taps;
   double sum = 0;
@@ -95,16 +100,28 @@ std::vector<double> gaussian_taps(double variance) {
   return taps;
 }
 
+namespace {
+
+/// The blur that a level needs of its own for a Gaussian of that variance; both in texels squared, of the level and of level 0.
+double own_blur(double variance, int level) {
+  return (variance - pyramid_variance(level)) / std::exp2(2 * level);
+}
+
+int coarsest_level(double variance, double least_blur) {
+  int level = 0;
+  while (own_blur(variance, level + 1) >= least_blur) ++level;
+  return level;
+}
+
+}  // namespace
+
 std::vector<BloomBlur> plan_bloom(double rows_per_height) {
   std::vector<BloomBlur> blurs;
   for (const BloomGaussian& gaussian : bloom_gaussians()) {
     const double variance = std::pow(gaussian.sigma_heights * rows_per_height, 2);
-    const auto own_blur = [&](int level) { return (variance - pyramid_variance(level)) / std::exp2(2 * level); };
-    int level = 0;
-    while (own_blur(level + 1) >= kLeastBlur) ++level;
-    BloomBlur blur{level, {}};
+    BloomBlur blur{coarsest_level(variance, kLeastBlur), {}};
     // Both passes of a separable blur carry the root of the weight.
-    for (const double tap : gaussian_taps(own_blur(level)))
+    for (const double tap : gaussian_taps(own_blur(variance, blur.level)))
       blur.taps.push_back(static_cast<float>(tap * std::sqrt(gaussian.weight)));
     blurs.push_back(std::move(blur));
   }
@@ -162,6 +179,15 @@ GlareReach glare_reach(const GlareSettings& settings, double rows_per_height, do
   const double peak = settings.streak_strength * excess * -slowest / kInvisible;
   if (peak > 1) reach.streak_texels = std::log(peak) / -slowest;
   return reach;
+}
+
+StreakGrid streak_grid(const GlareSettings& settings, double rows_per_height) {
+  const double variance = std::pow(kStreakSigma_heights * rows_per_height, 2);
+  const glm::dvec3 logs = -streak_log_per_height(settings) / rows_per_height;
+  const double steepest = std::max({logs.r, logs.g, logs.b});
+  int level = coarsest_level(variance, kLeastStreakBlur);
+  while (level > 0 && steepest * std::exp2(level) * std::sqrt(2) > kLongestStep) --level;
+  return {level, own_blur(variance, level)};
 }
 
 int streak_pass_count(const GlareSettings& settings, double reach_texels) {

@@ -47,7 +47,7 @@ std::vector<BloomBlur> plan_bloom(double rows_per_height);
 std::vector<double> gaussian_taps(double variance);
 
 /// Across, a streak is a Gaussian of this width; along, a one-sided exponential.
-inline constexpr double kStreakSigma_heights = 0.003;
+inline constexpr double kStreakSigma_heights = 0.006;
 
 /// What is left of a streak one height further on, per channel, as natural logarithm (negative).
 glm::dvec3 streak_log_per_height(const GlareSettings& settings);
@@ -78,6 +78,14 @@ struct GlareReach {
   double bloom_texels, streak_texels;
 };
 GlareReach glare_reach(const GlareSettings& settings, double rows_per_height, double excess);
+
+/// The level of the bloom's pyramid that streaks are drawn at, 0: the grid itself, and how much blur they need there beside the
+/// pyramid's own (variance in texels squared of that level): as coarse as their width and their fall allow.
+struct StreakGrid {
+  int level;
+  double own_blur;
+};
+StreakGrid streak_grid(const GlareSettings& settings, double rows_per_height);
 
 /// Passes whose 4^passes steps reach so far, unless set by hand.
 int streak_pass_count(const GlareSettings& settings, double reach_texels);

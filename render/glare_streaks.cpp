@@ -1,12 +1,10 @@
 #include "render/glare_streaks.hpp"
 
-#include "render/shader.hpp"
 #include "shaders/interface.h"
 
 namespace catchlight::render {
 
-StreakPass::StreakPass(const std::string& shader_folder)
-    : program_(make_program({.vertex = "fullscreen.vert", .fragment = "glare_streak.frag", .captured = {}}, shader_folder)) {}
+StreakPass::StreakPass(const std::string& shader_folder) : programs_("glare_streak.frag", shader_folder) {}
 
 void StreakPass::resize(int columns, int rows) {
   between_.clear();
@@ -19,16 +17,16 @@ void StreakPass::begin() const {
 
 void StreakPass::add(const GlTexture& source, const std::vector<StreakPassTaps>& passes, const ColorTarget<1>& target,
                      const PixelRect& texels) const {
-  glUseProgram(program_.id());
   const GlTexture* from = &source;
   for (std::size_t p = 0; p < passes.size(); ++p) {
     glm::ivec2 offsets[kMaxStreakTaps];
     glm::vec3 weights[kMaxStreakTaps];
     const auto count = static_cast<GLsizei>(passes[p].size());
     for (std::size_t t = 0; t < passes[p].size(); ++t) offsets[t] = passes[p][t].offset, weights[t] = passes[p][t].weight;
-    glProgramUniform1i(program_.id(), 0, count);
-    glProgramUniform2iv(program_.id(), 1, count, &offsets[0].x);
-    glProgramUniform3fv(program_.id(), 1 + MAX_STREAK_TAPS, count, &weights[0].x);
+    const GLuint program = programs_.with(count);
+    glUseProgram(program);
+    glProgramUniform2iv(program, 0, count, &offsets[0].x);
+    glProgramUniform3fv(program, MAX_STREAK_TAPS, count, &weights[0].x);
     glBindTextureUnit(TEXTURE_SOURCE, from->id());
     if (p + 1 == passes.size()) {
       const AdditiveBlending blending;

@@ -5,6 +5,7 @@
 
 #include "render/glare_plan.hpp"
 #include "render/glare_target.hpp"
+#include "render/tap_programs.hpp"
 
 namespace catchlight::render {
 
@@ -22,7 +23,7 @@ class StreakPass {
            const PixelRect& texels) const;
 
  private:
-  GlProgram program_;
+  TapPrograms programs_;
   std::vector<ColorTarget<1>> between_;  ///< what one pass leaves to the next
 };
 

@@ -56,8 +56,17 @@ std::string file_legend(const ShaderText& text) {
   return legend;
 }
 
-GlShader compile(GLenum stage, const std::string& name, const std::string& folder) {
-  const ShaderText source = shader_text(name, folder);
+/// Nothing may stand before #version; the log's line numbers stay those of the file.
+void insert_defines(std::string& text, const std::string& defines) {
+  if (defines.empty()) return;
+  const std::size_t at = text.find('\n', text.find("#version")) + 1;
+  const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n') + 1;
+  text.insert(at, defines + "#line " + std::to_string(line) + " 0\n");
+}
+
+GlShader compile(GLenum stage, const std::string& name, const std::string& folder, const std::string& defines = {}) {
+  ShaderText source = shader_text(name, folder);
+  insert_defines(source.text, defines);
   GlShader shader(glCreateShader(stage));
   const char* text = source.text.c_str();
   glShaderSource(shader.id(), 1, &text, nullptr);
@@ -90,7 +99,7 @@ GlProgram make_program(const ProgramStages& stages, const std::string& folder) {
   glAttachShader(program.id(), vertex.id());
   GlShader fragment;
   if (!stages.fragment.empty()) {
-    fragment = compile(GL_FRAGMENT_SHADER, stages.fragment, folder);
+    fragment = compile(GL_FRAGMENT_SHADER, stages.fragment, folder, stages.defines);
     glAttachShader(program.id(), fragment.id());
   }
   if (!stages.captured.empty()) {

@@ -21,6 +21,7 @@ struct ProgramStages {
   std::string vertex;                 ///< file names
   std::string fragment;               ///< empty: none
   std::vector<const char*> captured;  ///< outputs written to a buffer by transform feedback, interleaved
+  std::string defines = {};           ///< lines put before the fragment shader's own
 };
 
 /// Throws Error with file and log where it does not compile or link.

@@ -4,7 +4,6 @@
 #include "bspline.glsl"
 
 layout(binding = TEXTURE_COARSER) uniform sampler2D coarser;
-layout(location = 0) uniform float strength;
 layout(location = 0) out vec4 result;
 
-void main() { result = vec4(strength * bspline(coarser, 0.5 * (gl_FragCoord.xy + GLARE_MARGIN)), 1.0); }
+void main() { result = vec4(bspline(coarser, 0.5 * (gl_FragCoord.xy + GLARE_MARGIN)), 1.0); }

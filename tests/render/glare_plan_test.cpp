@@ -57,6 +57,16 @@ TEST(GlarePlan, FainterLightReachesLessFar) {
   EXPECT_EQ(none.streak_texels, 0);
 }
 
+TEST(GlarePlan, StreaksAreDrawnAsCoarselyAsTheirWidthAndFallAllow) {
+  GlareSettings settings;
+  EXPECT_EQ(streak_grid(settings, 240).level, 1);
+  EXPECT_NEAR(streak_grid(settings, 240).own_blur, 0, 0.01) << "the pyramid's own blur is the Gaussian across";
+  EXPECT_EQ(streak_grid(settings, 120).level, 0) << "too narrow";
+  settings.streak_attenuation = 0.6;
+  EXPECT_EQ(streak_grid(settings, 240).level, 0) << "too short";
+  EXPECT_NEAR(streak_grid(settings, 240).own_blur, 1.44 * 1.44, 1e-9);
+}
+
 TEST(GlarePlan, PassesReachAsFarAsTheLightUnlessSetByHand) {
   GlareSettings settings;
   EXPECT_EQ(streak_pass_count(settings, 0), 1);
