@@ -20,6 +20,7 @@ render::FrameView frame_view(const CameraModel& camera, const SceneSettings& sce
   view.camera_from_tag = row.camera_from_tag;
   view.exposure = exposure_gain(scene.exposure, row.exposure, tag_irradiance_over_pi(built, row.camera_from_tag));
   view.black = scene.exposure.mode == "fixed" ? glm::dvec3(0.0) : row.black;
+  if (row.has_exposure) view.receiver_light = row.exposure * scene.receiver.albedo + row.black;
   view.tag_from_light = tag_from_light(built, row.camera_from_tag);
   view.lens = lens_view(scene.lens, row, frame, vignetting);
   return view;

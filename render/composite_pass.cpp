@@ -122,6 +122,7 @@ void CompositePass::update_uniforms(const FrameView& view, const VirtualLayer& l
   block.plate_rect = as_vector(plate_rect_);
   block.modes = {mode_of(view.color), clips_ ? 1 : 0, layer.pixel_glare ? 2 : layer.glare ? 1 : 0, as_light ? 1 : 0};
   block.black = glm::vec4(view.black, 0);
+  block.receiver_light = glm::vec4(view.receiver_light, 0);
   block.changed_code.x = changed_code_;
   const Vignetting vignetting = vignetting_of(view);
   block.vignetting = vignetting.terms;

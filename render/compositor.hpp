@@ -58,6 +58,7 @@ struct GlareSettings {
   double streak_attenuation = 0.92;  ///< a of a^k, per pixel at a frame height of 480 px
   double streak_dispersion = 0;      ///< 1: a streak is as long as its colour's wavelength says; 0: all alike
   double streak_rotation_deg = 45;
+  double streak_width = 0.006;    ///< standard deviation across, in shares of the frame's height
   double emitter_strength = 1;    ///< of what the object's materials emit, against what else is as bright
   int emitter_directions = 0;     ///< streaks of what they emit; 0: as of the rest
   int streak_passes = 0;          ///< of four samples each; 0: as many as can be seen
@@ -94,6 +95,8 @@ struct FrameView {
   RigidTransform camera_from_tag;
   glm::vec3 exposure{1.0f};
   glm::vec3 black{0.0f};
+  glm::vec3 receiver_light{
+      0.0f};  ///< unshadowed, exposed linear: what clipped pixels of the plate are taken to hide; 0: not known
   PlateColor color;
   glm::dmat3 tag_from_light{1.0};  ///< turns the light against the tag (probe fixed to the camera)
   bool has_pose = true;            ///< false: nothing virtual is drawn; the tone curve, where there is one, is

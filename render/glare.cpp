@@ -123,7 +123,7 @@ PixelRect GlarePass::spread() {
   if (settings_.streak_strength > 0) {
     StreakGrid on = streak_grid(settings_, rows_per_height);
     // The two parts of the excess are not in the pyramid.
-    if (divided_) on = {0, std::pow(kStreakSigma_heights * rows_per_height, 2)};
+    if (divided_) on = {0, std::pow(settings_.streak_width * rows_per_height, 2)};
     const GlTexture& source = divided_        ? reflected_->texture()
                               : on.level == 0 ? excess_->texture()
                                               : bloom_.level(on.level).shrunk.texture();

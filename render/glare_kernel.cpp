@@ -52,7 +52,7 @@ Image glare_kernel(const GlareSettings& settings, double frame_height_px, int wi
   const auto across = bloom_axis(frame_height_px, width), down = bloom_axis(frame_height_px, height);
   const auto gaussians = bloom_gaussians();
   const glm::dvec3 l = -streak_log_per_height(settings) / frame_height_px;
-  const double sigma = kStreakSigma_heights * frame_height_px;
+  const double sigma = settings.streak_width * frame_height_px;
   const auto directions = streak_directions(settings.streak_directions, settings.streak_rotation_deg);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {

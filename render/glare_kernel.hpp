@@ -11,7 +11,7 @@ namespace catchlight::render {
 /// Light that a pixel of 1 adds to the pixels around it, strengths included; its centre is pixel (width / 2, height / 2), rounded
 /// down. `frame_height_px`: rows of the picture to be convolved; below 120 a streak is narrower than the pixels can show. Bloom:
 /// the sum of w / (2 pi s^2) exp(-r^2 / 2 s^2) over bloom_gaussians(). A streak along u, across v: l exp(-l u) for u > 0
-/// convolved with the Gaussian of kStreakSigma_heights in both, where l = -ln a per pixel; the strength is shared by the
+/// convolved with the Gaussian of settings.streak_width in both, where l = -ln a per pixel; the strength is shared by the
 /// directions.
 Image glare_kernel(const GlareSettings& settings, double frame_height_px, int width, int height);
 

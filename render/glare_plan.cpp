@@ -182,7 +182,7 @@ GlareReach glare_reach(const GlareSettings& settings, double rows_per_height, do
 }
 
 StreakGrid streak_grid(const GlareSettings& settings, double rows_per_height) {
-  const double variance = std::pow(kStreakSigma_heights * rows_per_height, 2);
+  const double variance = std::pow(settings.streak_width * rows_per_height, 2);
   const glm::dvec3 logs = -streak_log_per_height(settings) / rows_per_height;
   const double steepest = std::max({logs.r, logs.g, logs.b});
   int level = coarsest_level(variance, kLeastStreakBlur);

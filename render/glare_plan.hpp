@@ -46,9 +46,6 @@ std::vector<BloomBlur> plan_bloom(double rows_per_height);
 /// Weights of a Gaussian that sum to 1 over both sides; at distance 0, 1, 2 ...
 std::vector<double> gaussian_taps(double variance);
 
-/// Across, a streak is a Gaussian of this width; along, a one-sided exponential.
-inline constexpr double kStreakSigma_heights = 0.006;
-
 /// What is left of a streak one height further on, per channel, as natural logarithm (negative).
 glm::dvec3 streak_log_per_height(const GlareSettings& settings);
 

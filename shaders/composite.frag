@@ -17,6 +17,9 @@ layout(location = 2) out vec4 object_layer;
 layout(location = 3) out vec4 shadow_layer;
 layout(location = 4) out vec4 glare_layer;
 
+// Linear light of an 8-bit code of 253: compression may leave a clipped surface there.
+const float kClipped = 0.982;
+
 vec3 finite_or_zero(vec3 v) { return mix(v, vec3(0.0), bvec3(uvec3(isnan(v)) | uvec3(isinf(v)))); }
 
 vec3 glare_at(ivec2 pixel) {
@@ -48,7 +51,10 @@ void main() {
   int transfer = composite.modes.x;
   vec3 background = finite_or_zero(linear_from_code(transfer, code));
   vec3 black = composite.black.rgb;
-  vec3 shadowed = max(background - black, 0.0) * ratio + min(background, black);
+  // Where the plate is clipped the receiver is brighter than it shows, and so is its shadow.
+  bvec3 clipped = composite.modes.y != 0 ? greaterThanEqual(background, vec3(kClipped)) : bvec3(false);
+  vec3 lit = mix(background, max(background, composite.receiver_light.rgb), clipped);
+  vec3 shadowed = max(lit - black, 0.0) * ratio + min(background, black);
   over.rgb += over.a * black;
   vec3 light = shadowed * (1.0 - over.a) + over.rgb + glare;
 

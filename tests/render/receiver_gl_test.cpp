@@ -48,6 +48,22 @@ TEST_F(ReceiverGl, TheGridsEndIsNotSeen) {
   EXPECT_LT(largest_step, 0.08f) << "three points of 2 px: 0.25 over 6 px";
 }
 
+TEST_F(ReceiverGl, AClippedPlateIsAsBrightAsTheReceiverMustBe) {
+  // Twice the sensor's white in truth: a shadow that leaves 0.4 of it shows 0.8, one that leaves 0.6 does not show.
+  FrameView view = linear_view_from_above();
+  view.receiver_light = glm::vec3(2, 2, 0.5f);
+  for (const double left : {0.4, 0.6}) {
+    Compositor compositor(receiver_scene([left](double, double) { return left; }), without_glare());
+    const glm::vec4 clipped = pixel_at(compositor.render(view, plate_u8(255)), 80, 60);
+    EXPECT_NEAR(clipped.x, std::min(2 * left, 1.0), 1e-3) << left;
+    EXPECT_NEAR(clipped.z, left, 1e-3) << "never darker than it shows";
+    EXPECT_NEAR(pixel_at(compositor.render(view, plate_u8(200)), 80, 60).x, left * 200 / 255, 1e-3) << "not clipped: as it shows";
+  }
+  view.receiver_light = glm::vec3(0);
+  Compositor compositor(receiver_scene([](double, double) { return 0.4; }), without_glare());
+  EXPECT_NEAR(pixel_at(compositor.render(view, plate_u8(255)), 80, 60).x, 0.4, 1e-3) << "not known";
+}
+
 TEST_F(ReceiverGl, RatiosThatMakeNoSenseAreBounded) {
   for (const auto& [given, shown] : {std::pair{-0.5, 0.0}, {100.0, 2.0}}) {
     Compositor compositor(receiver_scene([value = given](double, double) { return value; }), without_glare());
