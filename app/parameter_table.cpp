@@ -116,8 +116,8 @@ std::vector<Parameter> make_table() {
       {"glare.streak_rotation_deg", "deg", "Direction of the first arm.",
        RealKind{[](Scene& s) -> double& { return s.glare.streak_rotation_deg; }, -360, 360}},
       {"glare.streak_width", "",
-       "Width of a streak across, its standard deviation in shares of the frame's height; below 0.006 streaks cost four times as "
-       "much.",
+       "Width of a streak across, its standard deviation in shares of the frame's height; below 0.006 drawn at twice the "
+       "resolution.",
        RealKind{[](Scene& s) -> double& { return s.glare.streak_width; }, 0.002, 0.1}},
       {"glare.emitter_strength", "", "Glare of what the object's own materials emit, as a factor on that of its reflections.",
        RealKind{[](Scene& s) -> double& { return s.glare.emitter_strength; }, 0, 100}},

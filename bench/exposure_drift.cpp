@@ -1,12 +1,11 @@
 // Exposure found against exposure made: a recording's frames, re-exposed by up to one stop and the white balance by up to 20 %,
 // as CSV on standard output. What a channel found is given as gain, against the same frames as they are.
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "app/frame_track.hpp"
 #include "app/media/source.hpp"
-#include "tests/app/media/media_fixture.hpp"
+#include "tests/app/exposure_fixture.hpp"
 #include "tracking/camera_file.hpp"
 
 namespace {
@@ -20,20 +19,6 @@ glm::dvec3 gain_of(int frame) {
   return std::exp2(std::sin(turn)) * glm::dvec3(1 + 0.2 * std::sin(1.3 * turn + 0.4), 1, 1 - 0.2 * std::sin(0.9 * turn + 1.1));
 }
 
-/// The frame's light times `gain`, clipped, in 8 bits.
-app::Frame reexposed(const app::Frame& frame, const glm::dvec3& gain) {
-  const int width = frame.width_px(), height = frame.height_px();
-  const render::Plate plate = frame.rgb({0, 0, width, height});
-  app::FramePtr picture = app::testing::noise_frame(AV_PIX_FMT_RGB24, width, height, 1);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < 3 * width; ++x) {
-      const auto code = static_cast<double>(plate.pixels[static_cast<std::size_t>(3 * width * y + x)]);
-      const double light = std::min(linear_from_srgb(code / 255) * gain[x % 3], 1.0);
-      picture->data[0][y * picture->linesize[0] + x] = static_cast<std::uint8_t>(std::lround(255 * srgb_from_linear(light)));
-    }
-  return {std::shared_ptr<const AVFrame>(std::move(picture)), frame.number(), frame.time_s()};
-}
-
 }  // namespace
 
 int main() {
@@ -45,7 +30,7 @@ int main() {
     const auto frame = source->read();
     if (!frame) break;
     still.add(*frame);
-    drifting.add(reexposed(*frame, gain_of(i)));
+    drifting.add(app::testing::reexposed(*frame, gain_of(i)));
   }
   const auto before = still.solve(), after = drifting.solve();
   std::puts("frame,made_r,made_g,made_b,found_r,found_g,found_b");

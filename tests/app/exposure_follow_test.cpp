@@ -4,7 +4,7 @@
 #include <random>
 
 #include "app/frame_track.hpp"
-#include "tests/app/media/media_fixture.hpp"
+#include "tests/app/exposure_fixture.hpp"
 #include "tests/tracking/synthetic_tag.hpp"
 #include "tracking/camera_file.hpp"
 
@@ -12,19 +12,12 @@ namespace catchlight::app {
 namespace {
 
 using testing::noise_frame;
+using testing::reexposed;
+using testing::scene_of_tag_5;
+using testing::small_camera;
 
 /// What a sensor keeps of one unit of linear light.
 constexpr double kNoisePerLight = 2.3e-4;
-
-CameraModel small_camera() {
-  return {200, 160, 1000, 1000, 99.5, 79.5, {}};
-}
-
-SceneSettings scene() {
-  SceneSettings scene;
-  scene.tag.id = 5;
-  return scene;
-}
 
 /// Light of a tag of `size_px` pixels on paper of a margin of one cell; albedo 0.8 comes out at 0.6.
 std::vector<float> tag_light(double size_px = 61) {
@@ -64,28 +57,14 @@ std::vector<glm::dvec3> wandering_gains(double top_ev) {
   return gains;
 }
 
-/// A frame's own light through a camera with these gains.
-Frame reexposed(const Frame& frame, const glm::dvec3& gain) {
-  const int width = frame.width_px(), height = frame.height_px();
-  const render::Plate plate = frame.rgb({0, 0, width, height});
-  FramePtr picture = noise_frame(AV_PIX_FMT_RGB24, width, height, 1);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < 3 * width; ++x) {
-      const auto code = static_cast<double>(plate.pixels[static_cast<std::size_t>(3 * width * y + x)]);
-      const double light = std::min(linear_from_srgb(code / 255) * gain[x % 3], 1.0);
-      picture->data[0][y * picture->linesize[0] + x] = static_cast<std::uint8_t>(std::lround(255 * srgb_from_linear(light)));
-    }
-  return {std::shared_ptr<const AVFrame>(std::move(picture)), frame.number(), frame.time_s()};
-}
-
 std::vector<TrackRow> solved(const std::vector<Frame>& frames) {
-  PathTrack track(small_camera(), scene());
+  PathTrack track(small_camera(), scene_of_tag_5());
   for (const Frame& frame : frames) track.add(frame);
   return track.solve();
 }
 
 std::vector<TrackRow> causal(const std::vector<Frame>& frames) {
-  const auto track = make_tag_track(small_camera(), scene());
+  const auto track = make_tag_track(small_camera(), scene_of_tag_5());
   std::vector<TrackRow> rows;
   for (const Frame& frame : frames) rows.push_back(track->row(frame));
   return rows;
@@ -146,7 +125,7 @@ TEST(ExposureFollows, TheSameClippedFrameAThousandTimesIsTheSameToTheLastBit) {
     poses[i].frame = static_cast<std::int64_t>(i);
     poses[i].has_exposure = false;
   }
-  const auto track = make_recorded_track(poses, small_camera(), scene());
+  const auto track = make_recorded_track(poses, small_camera(), scene_of_tag_5());
   track->row(photograph(light, glm::dvec3(1), 0));
   const Frame clipped = photograph(light, glm::dvec3(2), 1);
   const auto again = [&](std::int64_t number) { return Frame(FramePtr(av_frame_clone(&clipped.picture())), number, 0); };
@@ -159,7 +138,7 @@ TEST(ExposureFollows, ABlackFrameAndAWhiteFrameAreHeldAndWarnedOf) {
   const auto light = tag_light();
   std::vector<Frame> frames =
       photographs(light, {glm::dvec3(1), glm::dvec3(1), glm::dvec3(1e-9), glm::dvec3(1e9), glm::dvec3(1)});
-  PathTrack track(small_camera(), scene());
+  PathTrack track(small_camera(), scene_of_tag_5());
   for (const Frame& frame : frames) track.add(frame);
   const auto rows = track.solve();
   for (const std::size_t i : {2, 3}) {

@@ -3,25 +3,16 @@
 
 #include <algorithm>
 
-#include "tests/app/media/media_fixture.hpp"
+#include "tests/app/exposure_fixture.hpp"
 #include "tests/tracking/synthetic_tag.hpp"
 
 namespace catchlight::app {
 namespace {
 
 using testing::noise_frame;
+using testing::scene_of_tag_5;
+using testing::small_camera;
 using tracking::TrackState;
-
-/// A long lens, quick to render: the tag of 8 cm is 61 px large at 1.3 m.
-CameraModel small_camera() {
-  return {200, 160, 1000, 1000, 99.5, 79.5, {}};
-}
-
-SceneSettings scene() {
-  SceneSettings scene;
-  scene.tag.id = 5;
-  return scene;
-}
 
 /// The tag with its centre at `x_px`, or none; `light` is what white paper on it sends.
 Frame frame_of(std::int64_t number, std::optional<double> x_px, double light = 0.6) {
@@ -43,7 +34,7 @@ Frame frame_of(std::int64_t number, std::optional<double> x_px, double light = 0
 }
 
 std::vector<TrackRow> solved(const std::vector<Frame>& frames) {
-  PathTrack track(small_camera(), scene());
+  PathTrack track(small_camera(), scene_of_tag_5());
   for (const Frame& frame : frames) track.add(frame);
   return track.solve();
 }
@@ -110,7 +101,7 @@ TEST(PathTrack, RowsHaveTheFramesNumbersAndTimes) {
 }
 
 TEST(TagTrack, LiveFootageKnowsOnlyTheFramesBefore) {
-  const auto track = make_tag_track(small_camera(), scene());
+  const auto track = make_tag_track(small_camera(), scene_of_tag_5());
   EXPECT_TRUE(track->is_tracking());
   const TrackRow before = track->row(frame_of(0, std::nullopt));
   EXPECT_FALSE(before.found);
