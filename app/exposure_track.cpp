@@ -6,16 +6,10 @@
 namespace catchlight::app {
 namespace {
 
-constexpr double kReach_s = 2, kFarthest_s = 60;
+constexpr double kReach_s = 2;
 constexpr std::size_t kMostWitnesses = 24;  ///< of a frame, either side; evenly chosen where the footage has more
 
-bool is_same(const tracking::PrintedTag& a, const tracking::PrintedTag& b) {
-  return a == b;
-}
-
-bool has(const MatchedExposure& matched, ExposureSource source) {
-  return std::find(matched.sources.begin(), matched.sources.end(), source) != matched.sources.end();
-}
+using Witnesses = std::deque<ExposureWitness>;
 
 /// From `before` to `after`, evenly in stops; black evenly in light.
 void interpolate(const TrackRow& before, const TrackRow& after, TrackRow& row) {
@@ -31,104 +25,104 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-}  // namespace
-
-ExposureTrack::ExposureTrack(const CameraModel& camera, const SceneSettings& scene)
-    : light_(camera, scene),
-      matcher_(scene.tag.white_albedo, scene.tag.black_albedo),
-      is_matching_(scene.exposure.mode == "match") {}
-
-void ExposureTrack::add(const Frame& frame, TrackRow& row) {
-  const auto reading = light_.read(frame, row);
-  const MatchedExposure matched = reading && reading->is_clipped() ? match_clipped(frame, row, *reading)
-                                  : reading                        ? matcher_.update(reading->photometry)
-                                                                   : matcher_.update({});
-  std::shared_ptr<Reference> reference;
-  for (std::size_t c = 0; c < 3; ++c) {
-    if (matched.sources[c] != ExposureSource::tag) continue;
-    if (!reference) reference = std::make_shared<Reference>(Reference{frame, row.camera_from_tag, {}, {}});
-    references_[c] = reference;
-  }
-  row.has_exposure = true;
-  row.exposure = matched.exposure.white;
-  row.black = matched.exposure.black;
-  drawn_ += row.found;
-  held_ += row.found && has(matched, ExposureSource::held);
-  guessed_ += row.found && has(matched, ExposureSource::black);
-}
-
-double ExposureTrack::brightening(const tracking::PlaneLight& now, const tracking::BundledTag& tag, Reference& since,
-                                  int channel) const {
-  if (!since.plane || !is_same(since.tag, tag)) {
-    since.plane = light_.plane(since.frame, since.camera_from_tag, tag);
-    since.tag = tag;
-  }
-  return tracking::brightening(now, *since.plane, channel).value_or(0.0);
-}
-
-MatchedExposure ExposureTrack::match_clipped(const Frame& frame, const TrackRow& row, const TagLight::Reading& reading) {
-  const tracking::PlaneLight now = light_.plane(frame, row.camera_from_tag, reading.tag);
-  glm::dvec3 ratio(0.0);
-  for (int c = 0; c < 3; ++c)
-    if (const auto& reference = references_[static_cast<std::size_t>(c)]; reference && reading.photometry.is_clipped[c])
-      ratio[c] = brightening(now, reading.tag, *reference, c);
-  return matcher_.update(reading.photometry, ratio);
-}
-
-std::optional<std::string> ExposureTrack::warning() const {
-  return is_matching_ ? exposure_warning(drawn_, held_, guessed_) : std::nullopt;
-}
-
-ExposurePath::ExposurePath(const CameraModel& camera, const SceneSettings& scene)
-    : light_(camera, scene),
-      white_albedo_(scene.tag.white_albedo),
-      black_albedo_(scene.tag.black_albedo),
-      is_matching_(scene.exposure.mode == "match") {}
-
-void ExposurePath::add(const Frame& frame, const TrackRow& row) {
-  Entry entry;
-  entry.time_s = row.time_s;
-  if (const auto reading = light_.read(frame, row)) {
-    entry.own = ExposureMatcher(white_albedo_, black_albedo_).update(reading->photometry);
-    entry.tag = reading->tag;
-    entry.plane = light_.plane(frame, row.camera_from_tag, reading->tag);
-  }
-  entries_.push_back(std::move(entry));
-}
-
-/// The entries that know the channel, within reach; else the nearest one either side, within a minute.
-std::vector<std::size_t> ExposurePath::witnesses(std::size_t entry, int channel) const {
-  const auto knows = [&](std::size_t i) { return entries_[i].has(channel) && is_same(entries_[i].tag, entries_[entry].tag); };
+/// The frames that know the channel, within reach; else the nearest one either side.
+std::vector<std::size_t> heard(const Witnesses& all, std::size_t frame, int channel) {
+  const auto is_heard = [&](std::size_t i) { return all[i].knows(channel) && all[i].tag == all[frame].tag; };
   std::vector<std::size_t> found;
   for (const int step : {-1, 1}) {
     std::vector<std::size_t> side;
-    for (std::size_t i = entry + static_cast<std::size_t>(step); i < entries_.size(); i += static_cast<std::size_t>(step)) {
-      const double away_s = std::abs(entries_[i].time_s - entries_[entry].time_s);
-      if (away_s > (side.empty() ? kFarthest_s : kReach_s)) break;
-      if (knows(i)) side.push_back(i);
+    for (std::size_t i = frame + static_cast<std::size_t>(step); i < all.size(); i += static_cast<std::size_t>(step)) {
+      if (!side.empty() && std::abs(all[i].time_s - all[frame].time_s) > kReach_s) break;
+      if (is_heard(i)) side.push_back(i);
     }
     const std::size_t stride = (side.size() + kMostWitnesses - 1) / kMostWitnesses;
     for (std::size_t i = 0; i < side.size(); i += stride) found.push_back(side[i]);
   }
-  if (knows(entry)) found.push_back(entry);
+  if (is_heard(frame)) found.push_back(frame);
   return found;
 }
 
 /// Whether the channel's exposure is known.
-bool ExposurePath::match(std::size_t entry, int channel, TrackRow& row) const {
-  std::vector<double> white, black;
-  const Entry& here = entries_[entry];
-  for (const std::size_t i : here.plane ? witnesses(entry, channel) : std::vector<std::size_t>{}) {
-    const TagExposure& theirs = entries_[i].own.exposure;
-    const auto ratio = i == entry ? 1.0 : tracking::brightening(*here.plane, *entries_[i].plane, channel);
+bool match(const Witnesses& all, std::size_t frame, int channel, double& white, double& black) {
+  const ExposureWitness& here = all[frame];
+  if (!here.plane) return false;
+  std::vector<double> whites, blacks;
+  for (const std::size_t i : heard(all, frame, channel)) {
+    const TagExposure& theirs = all[i].own.exposure;
+    const auto ratio = i == frame ? 1.0 : tracking::brightening(*here.plane, *all[i].plane, channel);
     if (!ratio) continue;
-    white.push_back(theirs.white[channel] * *ratio);
-    black.push_back(theirs.black[channel] * *ratio);
+    whites.push_back(theirs.white[channel] * *ratio);
+    blacks.push_back(theirs.black[channel] * *ratio);  // flare is light, too
   }
-  if (white.empty() && here.own.sources[static_cast<std::size_t>(channel)] == ExposureSource::held) return false;
-  row.exposure[channel] = white.empty() ? here.own.exposure.white[channel] : median(white);
-  row.black[channel] = black.empty() ? here.own.exposure.black[channel] : median(black);
+  if (whites.empty()) {
+    const auto knows = [channel](const ExposureWitness& witness) { return witness.knows(channel); };
+    if (here.own.sources[static_cast<std::size_t>(channel)] == ExposureSource::nothing) return false;
+    if (std::any_of(all.begin(), all.end(), knows)) return false;  // held or gone over from what is known
+    whites = {here.own.exposure.white[channel]};
+    blacks = {here.own.exposure.black[channel]};
+  }
+  white = median(std::move(whites));
+  black = median(std::move(blacks));
   return true;
+}
+
+}  // namespace
+
+ExposureReader::ExposureReader(const CameraModel& camera, const SceneSettings& scene)
+    : light_(camera, scene), white_albedo_(scene.tag.white_albedo), black_albedo_(scene.tag.black_albedo) {}
+
+ExposureWitness ExposureReader::read(const Frame& frame, const TrackRow& row) const {
+  ExposureWitness witness;
+  witness.time_s = row.time_s;
+  if (const auto reading = light_.read(frame, row)) {
+    witness.own = read_exposure(reading->photometry, white_albedo_, black_albedo_);
+    witness.tag = reading->tag;
+    witness.plane = light_.plane(frame, row.camera_from_tag, reading->tag);
+  }
+  return witness;
+}
+
+void ExposureDoubts::add(const ExposureWitness& frame, bool is_drawn) {
+  const auto& sources = frame.own.sources;
+  drawn += is_drawn;
+  held += is_drawn && !frame.plane;
+  guessed += is_drawn && std::find(sources.begin(), sources.end(), ExposureSource::black) != sources.end();
+}
+
+ExposureTrack::ExposureTrack(const CameraModel& camera, const SceneSettings& scene)
+    : reader_(camera, scene), is_matching_(scene.exposure.mode == "match") {}
+
+void ExposureTrack::add(const Frame& frame, TrackRow& row) {
+  witnesses_.push_back(reader_.read(frame, row));
+  const std::size_t now = witnesses_.size() - 1;
+  for (int c = 0; c < 3; ++c) match(witnesses_, now, c, current_.white[c], current_.black[c]);
+  row.has_exposure = true;
+  row.exposure = current_.white;
+  row.black = current_.black;
+  doubts_.add(witnesses_.back(), row.found);
+  forget();
+}
+
+void ExposureTrack::forget() {
+  const auto is_spare = [this](const ExposureWitness& first) {
+    if (witnesses_.back().time_s - first.time_s <= kReach_s) return false;
+    for (int c = 0; c < 3; ++c)
+      if (first.knows(c) && std::none_of(witnesses_.begin() + 1, witnesses_.end(), [c](const auto& w) { return w.knows(c); }))
+        return false;
+    return true;
+  };
+  while (is_spare(witnesses_.front())) witnesses_.pop_front();
+}
+
+std::optional<std::string> ExposureTrack::warning() const {
+  return is_matching_ ? exposure_warning(doubts_.drawn, doubts_.held, doubts_.guessed) : std::nullopt;
+}
+
+ExposurePath::ExposurePath(const CameraModel& camera, const SceneSettings& scene)
+    : reader_(camera, scene), is_matching_(scene.exposure.mode == "match") {}
+
+void ExposurePath::add(const Frame& frame, const TrackRow& row) {
+  witnesses_.push_back(reader_.read(frame, row));
 }
 
 void ExposurePath::fill_in(std::vector<TrackRow>& rows) const {
@@ -138,7 +132,7 @@ void ExposurePath::fill_in(std::vector<TrackRow>& rows) const {
     rows[i].exposure = before ? rows[*before].exposure : TagExposure{}.white;
     rows[i].black = before ? rows[*before].black : TagExposure{}.black;
     bool is_known = true;
-    for (int c = 0; c < 3; ++c) is_known &= match(i, c, rows[i]);
+    for (int c = 0; c < 3; ++c) is_known &= match(witnesses_, i, c, rows[i].exposure[c], rows[i].black[c]);
     if (!is_known) continue;
     for (std::size_t gap = before ? *before + 1 : 0; gap < i; ++gap) {
       if (before) {
@@ -153,13 +147,9 @@ void ExposurePath::fill_in(std::vector<TrackRow>& rows) const {
 }
 
 std::optional<std::string> ExposurePath::warning(const std::vector<TrackRow>& rows) const {
-  std::int64_t drawn = 0, held = 0, guessed = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    drawn += rows[i].found;
-    held += rows[i].found && !entries_[i].plane;
-    guessed += rows[i].found && has(entries_[i].own, ExposureSource::black);
-  }
-  return is_matching_ ? exposure_warning(drawn, held, guessed) : std::nullopt;
+  ExposureDoubts doubts;
+  for (std::size_t i = 0; i < rows.size(); ++i) doubts.add(witnesses_[i], rows[i].found);
+  return is_matching_ ? exposure_warning(doubts.drawn, doubts.held, doubts.guessed) : std::nullopt;
 }
 
 }  // namespace catchlight::app

@@ -1,8 +1,7 @@
 // The footage's exposure, frame by frame: of live footage, which knows what was before, and of recorded footage as a whole.
 #pragma once
 
-#include <array>
-#include <memory>
+#include <deque>
 #include <vector>
 
 #include "app/exposure.hpp"
@@ -10,8 +9,36 @@
 
 namespace catchlight::app {
 
-/// Live: each frame by its own tag. Where white is clipped, by what is not: the brightening of the surface around and of the
-/// black cells since the last frame in which that channel's white was read. Where nothing can be read, the last answer is held.
+/// What one frame shows. Frames bear witness for each other: a frame's exposure is the median of what the tags of all frames
+/// within two seconds say, carried over to it by the brightening of the surface between. Compression, noise and a passing
+/// highlight spoil a tag of some hundred pixels more than the surface around it, and a clipped frame is as good as any. Every
+/// answer is measured against frames that were read, so nothing accumulates and nothing drifts.
+struct ExposureWitness {
+  double time_s = 0;
+  TagReading own;
+  tracking::BundledTag tag;                   ///< that was read
+  std::optional<tracking::PlaneLight> plane;  ///< empty where no tag was read
+  bool knows(int channel) const { return own.sources[static_cast<std::size_t>(channel)] == ExposureSource::tag; }
+};
+
+/// Makes witnesses of frames.
+class ExposureReader {
+ public:
+  ExposureReader(const CameraModel& camera, const SceneSettings& scene);
+  ExposureWitness read(const Frame& frame, const TrackRow& row) const;
+
+ private:
+  TagLight light_;
+  double white_albedo_, black_albedo_;
+};
+
+/// Of how many frames the exposure is less than sure.
+struct ExposureDoubts {
+  std::int64_t drawn = 0, held = 0, guessed = 0;
+  void add(const ExposureWitness& frame, bool is_drawn);
+};
+
+/// Live: each frame by itself and the frames before. Where nothing can be read, the last answer is held.
 class ExposureTrack {
  public:
   ExposureTrack(const CameraModel& camera, const SceneSettings& scene);
@@ -22,27 +49,16 @@ class ExposureTrack {
   std::optional<std::string> warning() const;
 
  private:
-  /// A frame in which a channel's white was read, kept until another one's is clipped.
-  struct Reference {
-    Frame frame;
-    RigidTransform camera_from_tag;
-    tracking::BundledTag tag;                   ///< that `plane` is of
-    std::optional<tracking::PlaneLight> plane;  ///< made when first asked for
-  };
+  void forget();
 
-  double brightening(const tracking::PlaneLight& now, const tracking::BundledTag& tag, Reference& since, int channel) const;
-  MatchedExposure match_clipped(const Frame& frame, const TrackRow& row, const TagLight::Reading& reading);
-
-  TagLight light_;
-  ExposureMatcher matcher_;
+  ExposureReader reader_;
   bool is_matching_;
-  std::int64_t drawn_ = 0, held_ = 0, guessed_ = 0;
-  std::array<std::shared_ptr<Reference>, 3> references_;  ///< by channel
+  ExposureDoubts doubts_;
+  std::deque<ExposureWitness> witnesses_;  ///< of the last two seconds, and the last that knew a channel
+  TagExposure current_;
 };
 
-/// Recorded: each frame by the tags of all frames within two seconds, carried over to it by the brightening of the surface
-/// between. Compression, noise and a passing highlight spoil a tag of some hundred pixels more than the surface around it, and
-/// a clipped frame is as good as any.
+/// Recorded: each frame by the frames before and after.
 class ExposurePath {
  public:
   ExposurePath(const CameraModel& camera, const SceneSettings& scene);
@@ -58,21 +74,9 @@ class ExposurePath {
   std::optional<std::string> warning(const std::vector<TrackRow>& rows) const;
 
  private:
-  struct Entry {
-    double time_s = 0;
-    MatchedExposure own;
-    tracking::BundledTag tag;
-    std::optional<tracking::PlaneLight> plane;  ///< where there was a reading
-    bool has(int channel) const { return own.sources[static_cast<std::size_t>(channel)] == ExposureSource::tag; }
-  };
-
-  std::vector<std::size_t> witnesses(std::size_t entry, int channel) const;
-  bool match(std::size_t entry, int channel, TrackRow& row) const;
-
-  TagLight light_;
-  double white_albedo_, black_albedo_;
+  ExposureReader reader_;
   bool is_matching_;
-  std::vector<Entry> entries_;
+  std::deque<ExposureWitness> witnesses_;
 };
 
 }  // namespace catchlight::app

@@ -18,7 +18,6 @@ class TagLight {
   struct Reading {
     tracking::TagPhotometry photometry;
     tracking::BundledTag tag;  ///< of a board, the first that can be read without clipping, else the first that can be read
-    bool is_clipped() const { return glm::any(photometry.is_clipped); }
   };
 
   /// Empty where the row's pose is not of this frame: one that was only predicted may not lie on the cells.

@@ -141,9 +141,11 @@ TEST(ExposureFollows, ABlackFrameAndAWhiteFrameAreHeldAndWarnedOf) {
   PathTrack track(small_camera(), scene_of_tag_5());
   for (const Frame& frame : frames) track.add(frame);
   const auto rows = track.solve();
+  const auto live = causal(frames);
   for (const std::size_t i : {2, 3}) {
     EXPECT_NEAR(rows[i].exposure.g, 0.75, 0.015) << i;
     EXPECT_NEAR(rows[i].black.g, 0, 0.005) << i;
+    EXPECT_EQ(live[i].exposure, live[1].exposure) << i;
   }
   EXPECT_EQ(track.warning(rows).has_value(), rows[2].found || rows[3].found);
 }
@@ -184,17 +186,22 @@ TEST(ExposureFollows, ARecordingWhoseExposureAndWhiteBalanceWander) {
   SceneSettings matte;
   const auto gains = wandering_gains(1);
   PathTrack plain(camera, matte), wandering(camera, matte);
+  const auto live = make_tag_track(camera, matte);
+  std::vector<TrackRow> live_rows;
   const auto source = MediaSource::open(folder + "/video.mp4");
   for (std::size_t i = 0; i < gains.size(); ++i) {
     const auto frame = source->read();
     ASSERT_TRUE(frame);
     plain.add(*frame);
-    wandering.add(reexposed(*frame, gains[i]));
+    const Frame drifted = reexposed(*frame, gains[i]);
+    wandering.add(drifted);
+    live_rows.push_back(live->row(drifted));
   }
   const auto before = plain.solve(), after = wandering.solve();
   for (std::size_t i = 0; i < gains.size(); ++i)
     for (int c = 0; c < 3; ++c)
-      EXPECT_NEAR(after[i].exposure[c] / (before[i].exposure[c] * gains[i][c]), 1, 0.02) << "frame " << i << " channel " << c;
+      for (const TrackRow& row : {after[i], live_rows[i]})
+        EXPECT_NEAR(row.exposure[c] / (before[i].exposure[c] * gains[i][c]), 1, 0.02) << "frame " << i << " channel " << c;
 }
 
 }  // namespace
