@@ -123,9 +123,8 @@ TEST_F(OverlayCommand, ReportAndTrackSayWhatWasDone) {
       overlay(copy, out_, {"--report", folder_.path("report.json"), "--track-out", folder_.path("track.csv")});
   ASSERT_EQ(result.exit_code, 0) << result.error;
   const std::string report = read_text(folder_.path("report.json"));
-  for (const char* part :
-       {"\"frames\": 2", "\"tracked_frames\": 2", "\"decode\"", "\"track\"", "\"object\"", "\"encode\"", "median_ms", "renderer",
-        "\"choice\": \"glare\"", "of 2 frames"})
+  for (const char* part : {"\"frames\": 2", "\"tracked_frames\": 2", "\"decode\"", "\"track\"", "\"object\"", "\"encode\"",
+                           "median_ms", "renderer", "\"choice\": \"glare\"", "of 2 frames"})
     EXPECT_THAT(report, HasSubstr(part));
   EXPECT_THAT(read_text(folder_.path("track.csv")), HasSubstr("frame,time_s,found,r00"));
 }
@@ -348,8 +347,14 @@ TEST_F(OverlayCommand, ReplayWithoutExpectedFiguresFailsAndBlessWritesThem) {
     fs::copy(recording() + "/" + kind + "/0000.png", copy + "/" + kind + "/0000.png");
   }
   const auto replay = [&](std::vector<std::string> more) {
-    std::vector<std::string> arguments = {"replay",           copy, "-o", folder_.path("sheets"), "--quiet", "--quality.rays=64",
-                                          "--quality.bands=2"};
+    std::vector<std::string> arguments = {"replay",
+                                          copy,
+                                          "-o",
+                                          folder_.path("sheets"),
+                                          "--quiet",
+                                          "--quality.rays=64",
+                                          "--quality.bands=2",
+                                          "--quality.reflection_rays=0"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_catchlight(arguments, {{"XDG_CACHE_HOME", folder_.path("cache")}});
   };

@@ -217,7 +217,7 @@ TEST_F(ResponseFile, OpenCvsDebevecRecoversAKnownCurve) {
     photographs.push_back(picture);
   }
   cv::Mat response;
-  cv::createCalibrateDebevec(400, 30, true)->process(photographs, response, times);
+  cv::createCalibrateDebevec(200, 30, true)->process(photographs, response, times);
   const std::string path = folder_.path("camera.yaml");
   cv::FileStorage storage(path, cv::FileStorage::WRITE);
   storage.write("response", response);

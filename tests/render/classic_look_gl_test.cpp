@@ -127,8 +127,8 @@ TEST_F(ClassicLookGl, StreaksFallAsAPowerAlongTheDiagonals) {
   ClassicLook look("");
   look.draw(texture_of(scene.image), 512, 512, 1, kAttenuation);
   const Image streaks = read(look.streaks(), 128);
-  for (int y = 0; y < 128; y += 1) {
-    for (int x = 0; x < 128; x += 1) {
+  for (int y = 0; y < 128; ++y) {
+    for (int x = y % 3; x < 128; x += 3) {
       const double expected = streaks_by_loop(scene.bright, x, y);
       ASSERT_NEAR(streaks.pixel(x, y)[0], expected, 1e-4 * expected + 1e-7) << x << ", " << y;
     }
