@@ -24,6 +24,7 @@ constexpr double kMostPixels = 100'000;                 ///< looked at in a fram
 constexpr double kNoiselessLight = 0.03;                ///< the darkest that may be without noise
 constexpr int kPaperCells = 4;                          ///< of the sheet around the print
 constexpr double kPaperLikeness = 0.15;                 ///< the sheet's light differs by no more from the print's white
+constexpr double kMostOfFine = 3;                       ///< grain smeared by a codec has no more; else it is texture
 constexpr double kWeightFloor = 0.02;                   ///< variance grows about as light + this, so that its own error does too
 
 /// What is left of values at places after their best plane.
@@ -60,9 +61,20 @@ bool span_a_plane(const std::vector<glm::dvec2>& places) {
 struct CellBlocks {
   std::vector<glm::dvec2> block_places, pixel_places;
   std::vector<glm::dvec3> color;
-  std::vector<double> luma, block_luma;
+  std::vector<double> luma, block_luma, fine;
   bool is_clipped = false, is_on_print = true;
 };
+
+/// Second difference across and along, of unit gain for white noise (Immerkaer 1996); none at the rim.
+std::optional<double> fine_difference(const CodePlanes& planes, int x, int y) {
+  if (x < 1 || y < 1 || x + 1 >= planes.rect.width || y + 1 >= planes.rect.height) return std::nullopt;
+  double difference = 0;
+  for (int j = -1; j <= 1; ++j)
+    for (int i = -1; i <= 1; ++i)
+      difference += (i ? 1 : -2) * (j ? 1 : -2) *
+                    static_cast<double>(planes.luma[static_cast<std::size_t>((y + j) * planes.rect.width + x + i)]);
+  return difference / 6;
+}
 
 void add_block(const CodePlanes& planes, int column, int row, CellBlocks& cell) {
   const glm::ivec2 size(1 << planes.block_shift.x, 1 << planes.block_shift.y);
@@ -73,6 +85,7 @@ void add_block(const CodePlanes& planes, int column, int row, CellBlocks& cell) 
       const double luma = planes.luma[static_cast<std::size_t>(y * planes.rect.width + x)];
       cell.luma.push_back(luma);
       cell.pixel_places.emplace_back(x, y);
+      if (const auto fine = fine_difference(planes, x, y)) cell.fine.push_back(*fine * *fine);
       sum += luma;
       const glm::dvec3 rgb = luma + color;
       if (glm::any(glm::lessThan(rgb, glm::dvec3(kDarkest))) || glm::any(glm::greaterThan(rgb, glm::dvec3(kBrightest))))
@@ -167,6 +180,7 @@ FlatPatch flat_of(CellBlocks& cell, const glm::dmat3& rounding, const render::Pl
   take_off_plane(cell.block_places, cell.color);
   FlatPatch flat;
   for (const double luma : cell.luma) flat.luma_variance += luma * luma / static_cast<double>(cell.luma.size() - 3);
+  flat.fine_variance = cell.fine.empty() ? flat.luma_variance : mean(cell.fine);
   flat.freedom = static_cast<double>(cell.color.size() - 3);
   flat.is_on_print = cell.is_on_print;
   glm::dmat3 covariance = glm::outerProduct(one, one) * flat.luma_variance;
@@ -232,7 +246,13 @@ void NoiseMeter::add_alike(std::span<const FlatPatch> flats, std::span<const Fla
   if (counted.size() < flats.size())
     for (const FlatPatch& flat : flats)
       if (flat.luma_variance <= most) counted.push_back(flat);
-  for (const FlatPatch& flat : counted) add(flat);
+  double all = 0, fine = 0;
+  for (const FlatPatch& flat : counted) all += flat.freedom * flat.luma_variance, fine += flat.freedom * flat.fine_variance;
+  const double grain = all > 0 ? std::min(1.0, kMostOfFine * fine / all) : 1.0;
+  for (FlatPatch& flat : counted) {
+    flat.covariance *= grain;
+    add(flat);
+  }
 }
 
 void NoiseMeter::add(const FlatPatch& flat) {

@@ -15,7 +15,8 @@ namespace catchlight::app {
 struct FlatPatch {
   glm::dvec3 light{0.0};       ///< mean, exposed linear
   glm::dmat3 covariance{0.0};  ///< of it
-  double luma_variance = 0;    ///< in codes
+  double luma_variance = 0;    ///< in codes, of what a plane leaves
+  double fine_variance = 0;    ///< of luma, by its mixed second differences: the same for white noise, nothing for streaks
   double freedom = 0;          ///< degrees of it
   bool is_on_print = true;     ///< or on what may be the sheet around it
 };
@@ -25,6 +26,8 @@ struct FlatPatch {
 /// shading nor the codec's coarser chroma counts as more or less noise; degrees of freedom and the variance of rounding (1/12
 /// code^2) are allowed for. Cells that are not flat (dust, a shadow's edge, the object's cover) stand out from the others' median
 /// and are left out.
+/// A print has a texture of its own (streaks of toner, paper). It is coarser than grain: what fine differences see less than a
+/// third of counts only as three times that.
 /// Codecs keep less noise near the print's edges than on a plain: cells of the sheet around it that are as bright as its white,
 /// and do not stand out either, count instead where there are as many.
 class NoiseMeter {

@@ -106,6 +106,29 @@ TEST(NoiseMeter, AStainOnACellIsLeftOut) {
   EXPECT_NEAR(meter.model().slope.g / 3e-4, 1, 0.1);
 }
 
+/// Toner leaves streaks, which no grain has.
+TEST(NoiseMeter, StreaksOfThePrintAreNoGrain) {
+  const glm::dvec3 slope(1e-4);
+  const auto seen = [&](double streak_codes) {
+    NoiseMeter meter(camera(), target());
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+      Frame frame = noisy_frame(scene(), slope, 2e-6, seed);
+      const auto& picture = const_cast<AVFrame&>(frame.picture());
+      for (int y = 0; y < 240; ++y)
+        for (int x = 0; x < 3 * 320; ++x) {
+          std::uint8_t& code = picture.data[0][y * picture.linesize[0] + x];
+          if (code < 80) code = static_cast<std::uint8_t>(std::lround(code + streak_codes * std::sin(x / 3 * 2 * M_PI / 9)));
+        }
+      meter.add(frame, row_of(scene()));
+    }
+    return meter.model();
+  };
+  const NoiseModel plain = seen(0), streaked = seen(10);
+  const auto deviation = [](const NoiseModel& model, double light) { return std::sqrt(model.slope.g * light + model.floor.g); };
+  EXPECT_NEAR(deviation(streaked, 0.6) / deviation(plain, 0.6), 1, 0.1);
+  EXPECT_LT(deviation(streaked, 0.03) / deviation(plain, 0.03), std::sqrt(3) * 1.05) << "3.7 without";
+}
+
 /// Luma of 4:2:0 footage is noisy and its chroma, after the codec, is not.
 TEST(NoiseMeter, LumaNoiseAloneIsTheSameInAllChannels) {
   const Frame rgb = noisy_frame(scene(), glm::dvec3(3e-4), 0, 1);
