@@ -199,7 +199,8 @@ void GlarePass::add_star(const GlTexture& source, int directions, const StreakGr
     half_of_first.gain -= 0.5 * gain;
   }
   streaks_.add(*narrow, light, arms, target, at_level(texels, 3));
-  streaks_.add(*narrow, light, {{{half_of_first}}}, target, light);
+  const std::vector<std::vector<StreakSamples>> half{{half_of_first}};
+  streaks_.add(*narrow, light, half, target, light);
 }
 
 Image GlarePass::read_excess() const {

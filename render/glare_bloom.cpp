@@ -48,7 +48,6 @@ void BloomPass::shrink(const GlTexture& excess, const PixelRect& texels) {
   const GlTexture* source = &excess;
   for (std::size_t k = 0; k < levels_.size(); ++k) {
     clear(levels_[k].shrunk);
-    glUniform1f(0, 0.75f);
     glBindTextureUnit(TEXTURE_SOURCE, source->id());
     draw_over(levels_[k].shrunk, texels_at(texels, static_cast<int>(k) + 1));
     source = &levels_[k].shrunk.texture();

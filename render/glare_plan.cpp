@@ -12,13 +12,13 @@ namespace {
 /// A streak's attenuation is stated per pixel of a frame of so many rows.
 constexpr double kReferenceRows = 480.0;
 constexpr double kNarrowest_heights = 0.006, kFalloff = 0.65;
-/// Variance of the filters that halve the resolution, (1 1 1 1) / 4 from the grid and (1 3 3 1) / 8 further down, and of bilinear
-/// reading; texels squared.
-constexpr double kDownVariance = 0.75, kUpVariance = 3.0 / 16.0;
+/// Variance of the filter that halves the resolution, (1 3 3 1) / 8, of bilinear reading, and of the cubic B-spline that goes up
+/// to the grid; texels squared.
+constexpr double kDownVariance = 0.75, kUpVariance = 3.0 / 16.0, kUpToGridVariance = 1.0 / 3.0;
 /// The narrowest Gaussian makes most of the bloom's peak: a level's own blur is at least as wide as this (texels squared), so
 /// that its texels do not show. The others, and a streak, fainter where it is sharp, may do without.
 constexpr double kLeastBlurOfNarrowest = 1.0;
-/// What blurs less than this (texels squared) is left out: 240 rows need 0.018 at every level.
+/// What blurs less than this (texels squared) is left out: with 240 rows at most 0.018 would be.
 constexpr double kNegligibleBlur = 0.05;
 /// A streak's steps are at most so long: what is left after one is above exp(-0.6). Coarser steps show in its profile.
 constexpr double kLongestStep = 0.6;
@@ -28,7 +28,7 @@ constexpr double kInvisible = 2e-5;
 /// What going down to a level and up again blurs; texels squared of level 0.
 double pyramid_variance(int level) {
   double variance = 0;
-  for (int k = 0; k < level; ++k) variance += std::exp2(2 * k) * (kDownVariance + 4 * (k == 0 ? 1.0 / 3 : kUpVariance));
+  for (int k = 0; k < level; ++k) variance += std::exp2(2 * k) * (kDownVariance + 4 * (k == 0 ? kUpToGridVariance : kUpVariance));
   return variance;
 }
 

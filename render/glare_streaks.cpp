@@ -1,11 +1,15 @@
 #include "render/glare_streaks.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "shaders/interface.h"
 
 namespace catchlight::render {
 namespace {
+
+/// Of the bands between passes.
+constexpr int kMostRows = 4096;
 
 /// Where a pass leaves light that lay within `light`.
 PixelRect swept(const PixelRect& light, const StreakSamples& samples, const ColorTarget<1>& target) {
@@ -42,8 +46,15 @@ void StreakPass::use(const GlTexture& source, const StreakSamples& samples, int 
   glBindTextureUnit(TEXTURE_SOURCE, source.id());
 }
 
-void StreakPass::add(const GlTexture& source, const PixelRect& light, const std::vector<std::vector<StreakSamples>>& arms,
+void StreakPass::add(const GlTexture& source, const PixelRect& light, std::span<const std::vector<StreakSamples>> arms,
                      const ColorTarget<1>& target, const PixelRect& texels) {
+  const std::size_t at_once = static_cast<std::size_t>(std::max(1, kMostRows / target.height()));
+  for (; !arms.empty(); arms = arms.subspan(std::min(at_once, arms.size())))
+    add_some(source, light, arms.first(std::min(at_once, arms.size())), target, texels);
+}
+
+void StreakPass::add_some(const GlTexture& source, const PixelRect& light, std::span<const std::vector<StreakSamples>> arms,
+                          const ColorTarget<1>& target, const PixelRect& texels) {
   const int height = target.height(), rows = height * static_cast<int>(arms.size());
   if (between_.empty() || between_[0].width() != target.width() || between_[0].height() < rows) {
     between_.clear();

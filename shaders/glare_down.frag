@@ -1,10 +1,8 @@
-// Halves the resolution as four bilinear reads, each `apart` texels from the middle both ways: 3/4 for (1 3 3 1) / 8, 1 for
-// (1 1 1 1) / 4.
+// Halves the resolution by (1 3 3 1) / 8 both ways, as four bilinear reads.
 #version 450 core
 #include "interface.h"
 
 layout(binding = TEXTURE_SOURCE) uniform sampler2D source;
-layout(location = 0) uniform float apart;
 layout(location = 0) out vec4 result;
 
 vec3 at(float x, float y) {
@@ -12,4 +10,4 @@ vec3 at(float x, float y) {
   return texture(source, texel / vec2(textureSize(source, 0))).rgb;
 }
 
-void main() { result = vec4(0.25 * (at(-apart, -apart) + at(apart, -apart) + at(-apart, apart) + at(apart, apart)), 1.0); }
+void main() { result = vec4(0.25 * (at(-0.75, -0.75) + at(0.75, -0.75) + at(-0.75, 0.75) + at(0.75, 0.75)), 1.0); }

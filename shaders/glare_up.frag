@@ -1,4 +1,4 @@
-// The coarser level at this one's resolution, and this level's own part; blending adds them to what this one has.
+// The coarser level at this one's resolution. OWN: bilinear, and with this level's own part; else smooth, to the grid.
 #version 450 core
 #include "interface.h"
 #include "bspline.glsl"

@@ -1,5 +1,6 @@
 // What the glare passes must keep, whatever the picture.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <limits>
@@ -28,8 +29,8 @@ Image streak_of_a_point(const glm::dvec2& direction, double log_per_texel, int p
   const GlVertexArray no_attributes = make_vertex_array("no attributes");
   reset_state();
   glBindVertexArray(no_attributes.id());
-  pass.add(source.texture(), {kMiddle, kMiddle, 1, 1},
-           {streak_passes(direction, glm::dvec3(log_per_texel), passes, glm::dvec3(1))}, target, {0, 0, kSize, kSize});
+  const std::array arms{streak_passes(direction, glm::dvec3(log_per_texel), passes, glm::dvec3(1))};
+  pass.add(source.texture(), {kMiddle, kMiddle, 1, 1}, arms, target, {0, 0, kSize, kSize});
   return read_back(target.framebuffer(), 0, kSize, kSize, 3);
 }
 
