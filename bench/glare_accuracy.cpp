@@ -1,12 +1,16 @@
 // Fast glare against the convolution with the kernel that it stands for: error and cost by passes, directions, resolutions and
-// kernels, as CSV. Errors are in per cent of the reference's peak; times are the least of several runs of the same process.
+// kernels, as CSV. Errors are in per cent of the reference's peak. Times are medians of runs that take turns. Whole against
+// whole: GlarePass against ApertureGlarePass, each from the drawn object to the texture that the composite reads; and what they
+// do with the same excess: GlarePass::spread() against FftConvolution::convolve(). Neither counts the making of the kernel.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <exception>
 #include <fstream>
 #include <iostream>
+#include <vector>
 
+#include "render/aperture_glare_pass.hpp"
 #include "render/fft_convolution.hpp"
 #include "render/glare_kernel.hpp"
 #include "tests/render/glare_fixture.hpp"
@@ -17,20 +21,53 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr int kRuns = 7;
+
+/// Until the GPU is done.
 template <typename Work>
-double least_ms(int runs, const Work& work) {
-  double least = 1e300;
-  for (int i = 0; i < runs; ++i) {
-    const auto start = Clock::now();
-    work();
-    glFinish();
-    least = std::min(least, std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+double time_ms(const Work& work) {
+  glFinish();
+  const auto start = Clock::now();
+  work();
+  glFinish();
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+struct Times {
+  double fast_ms, spread_ms, reference_ms, convolve_ms;
+};
+
+Times time_in_turns(const GlareSettings& settings, GlarePass& fast, const Image& picture, const FftConvolution& convolution,
+                    const Image& excess) {
+  const int width = picture.width, height = picture.height;
+  const PixelRect whole{0, 0, width, height};
+  const CameraModel camera{.width_px = width, .height_px = height, .fx_px = 1.0 * width, .fy_px = 1.0 * width};
+  const GlTexture object = test::upload(picture);
+  ApertureGlarePass reference(settings);
+  if (reference.extract(object, whole, width, height)) reference.spread(camera);  // makes the kernel
+  std::vector<double> fast_ms, spread_ms, reference_ms, convolve_ms;
+  for (int run = 0; run < kRuns; ++run) {
+    const double extract_ms = time_ms([&] { fast.extract(object, nullptr, whole, width, height); });
+    spread_ms.push_back(time_ms([&] { fast.spread(); }));
+    fast_ms.push_back(extract_ms + spread_ms.back());
+    reference_ms.push_back(time_ms([&] {
+      reference.extract(object, whole, width, height);
+      reference.spread(camera);
+    }));
+    convolve_ms.push_back(time_ms([&] { convolution.convolve(excess); }));
   }
-  return least;
+  return {median(fast_ms), median(spread_ms), median(reference_ms), median(convolve_ms)};
 }
 
 struct Result {
-  double largest, mean, fast_ms, reference_ms;
+  double largest, mean;
+  Times times;
 };
 
 /// `excess_rows`: grid whose excess the reference is made from; 0: the fast passes' own.
@@ -46,10 +83,9 @@ Result measure(const GlareSettings& settings, const Image& picture, int excess_r
   GlareSettings whole = settings;
   whole.streak_passes = 0;
   const FftConvolution convolution(glare_kernel(whole, height, 2 * width - 1, 2 * height - 1), width, height);
-  Image reference;
+  const Image reference = convolution.convolve(excess);
   Result result{};
-  result.reference_ms = least_ms(3, [&] { reference = convolution.convolve(excess); });
-  result.fast_ms = test::least_glare_ms(pass, picture, 3);
+  result.times = time_in_turns(settings, pass, picture, convolution, excess);
   double peak = 0;
   for (const float value : reference.data) peak = std::max<double>(peak, value);
   for (std::size_t i = 0; i < glare.data.size(); ++i) {
@@ -62,10 +98,13 @@ Result measure(const GlareSettings& settings, const Image& picture, int excess_r
 
 class Table {
  public:
-  explicit Table(std::ostream& out) : out_(out) { out_ << "ladder,scene,value,rows,largest_%,mean_%,fast_ms,reference_ms\n"; }
+  explicit Table(std::ostream& out) : out_(out) {
+    out_ << "ladder,scene,value,rows,largest_%,mean_%,fast_ms,reference_ms,spread_ms,convolve_ms\n";
+  }
   void add(const char* ladder, const std::string& scene, double value, int rows, const Result& result) {
     out_ << ladder << ',' << scene << ',' << value << ',' << rows << ',' << result.largest << ',' << result.mean << ','
-         << result.fast_ms << ',' << result.reference_ms << std::endl;
+         << result.times.fast_ms << ',' << result.times.reference_ms << ',' << result.times.spread_ms << ','
+         << result.times.convolve_ms << std::endl;
   }
 
  private:
@@ -77,6 +116,8 @@ void run(std::ostream& out) {
   for (const test::NamedScene& scene : test::glare_scenes()) {
     for (const int rows : {480, 720, 1080})
       table.add("size", scene.name, rows, rows, measure({}, scene.make(rows * 4 / 3, rows)));
+  }
+  for (const test::NamedScene& scene : test::glare_scenes()) {
     const Image picture = scene.make(640, 480);
     GlareSettings settings;
     for (settings.streak_passes = 1; settings.streak_passes <= 4; ++settings.streak_passes)

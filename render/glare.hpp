@@ -9,6 +9,7 @@
 #include "render/glare_bloom.hpp"
 #include "render/glare_plan.hpp"
 #include "render/glare_streaks.hpp"
+#include "render/glare_tiles.hpp"
 #include "render/tap_programs.hpp"
 
 namespace catchlight::render {
@@ -40,18 +41,21 @@ class GlarePass {
   void filter(const GlTexture& object, const GlTexture* emission, const PixelRect& rect);
   void use_filter(const TapPrograms& programs, int first_pixel, int source_size) const;
   void attach_parts();
-  void add_streaks(const GlTexture& source, int directions, const StreakGrid& on, double reach_texels, const PixelRect& texels);
+  PixelRect all_texels() const { return {0, 0, grid_.columns, grid_.rows}; }
+  void add_narrow_bloom();
+  void add_streaks(const StreakGrid& on, double reach_texels, const PixelRect& texels);
+  void add_star(const GlTexture& source, int directions, const StreakGrid& on, double reach_texels, const PixelRect& texels);
 
   GlareSettings settings_;
   TapPrograms filter_rows_, filter_rows_with_emission_, filter_columns_;
   GlProgram bright_;
+  GlareTiles tiles_;
+  RectangleArray rectangles_;
   GlareBlur blur_;
   BloomPass bloom_;
   StreakPass streaks_;
-  GlVertexArray no_attributes_;
   GlQuery any_bright_;
   GlareGrid grid_{};
-  PixelRect bright_texels_;  ///< where the excess may be
   int frame_width_ = 0, frame_height_ = 0;
   bool divided_ = false;  ///< what is emitted has streaks of its own
   std::unique_ptr<ColorTarget<1>> filtered_rows_, reflected_, emitted_, light_, excess_, scratch_, narrow_, glow_;

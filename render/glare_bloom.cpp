@@ -16,7 +16,9 @@ constexpr std::size_t kReadLevel = 3;
 
 BloomPass::BloomPass(const std::string& shader_folder)
     : down_(make_program({.vertex = "fullscreen.vert", .fragment = "glare_down.frag", .captured = {}}, shader_folder)),
-      up_(make_program({.vertex = "fullscreen.vert", .fragment = "glare_up.frag", .captured = {}}, shader_folder)) {}
+      up_(make_program({.vertex = "fullscreen.vert", .fragment = "glare_up.frag", .captured = {}, .defines = "#define OWN\n"},
+                       shader_folder)),
+      up_to_grid_(make_program({.vertex = "fullscreen.vert", .fragment = "glare_up.frag", .captured = {}}, shader_folder)) {}
 
 void BloomPass::resize(int columns, int rows, double rows_per_height) {
   blurs_ = plan_bloom(rows_per_height);
@@ -31,12 +33,11 @@ void BloomPass::resize(int columns, int rows, double rows_per_height) {
   }
 }
 
-PixelRect BloomPass::texels_at(const PixelRect& texels, int level) const {
-  constexpr int kAround = 3;
+PixelRect BloomPass::texels_at(const PixelRect& texels, int level, int around) const {
   const ColorTarget<1>& target = levels_[static_cast<std::size_t>(level) - 1].shrunk;
   const double step = std::exp2(level);
-  const auto low = [&](int t) { return static_cast<int>(std::floor((t - GLARE_MARGIN) / step)) + GLARE_MARGIN - kAround; };
-  const auto high = [&](int t) { return static_cast<int>(std::ceil((t - GLARE_MARGIN) / step)) + GLARE_MARGIN + kAround; };
+  const auto low = [&](int t) { return static_cast<int>(std::floor((t - GLARE_MARGIN) / step)) + GLARE_MARGIN - around; };
+  const auto high = [&](int t) { return static_cast<int>(std::ceil((t - GLARE_MARGIN) / step)) + GLARE_MARGIN + around; };
   const int x = low(texels.x), y = low(texels.y);
   return intersect({x, y, high(texels.x + texels.width) - x, high(texels.y + texels.height) - y},
                    {0, 0, target.width(), target.height()});
@@ -53,48 +54,39 @@ void BloomPass::shrink(const GlTexture& excess, const PixelRect& texels) {
   }
 }
 
-BloomPass::Brightness BloomPass::brightness() const {
-  // Small enough to be read back, and fine enough to tell where the light is.
+double BloomPass::total() const {
+  // Small enough to be read back.
   const std::size_t level = std::min<std::size_t>(kReadLevel, levels_.size());
-  const int step = 1 << level;
   const ColorTarget<1>& shrunk = levels_[level - 1].shrunk;
   const Image image = read_back(shrunk.framebuffer(), 0, shrunk.width(), shrunk.height(), 3);
   glm::dvec3 sum(0);
-  PixelRect texels;
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      const float* light = image.pixel(x, y);
-      if (light[0] + light[1] + light[2] <= 0) continue;
-      sum += glm::dvec3(light[0], light[1], light[2]);
-      texels = unite(texels, {(x - GLARE_MARGIN) * step + GLARE_MARGIN, (y - GLARE_MARGIN) * step + GLARE_MARGIN, step, step});
-    }
-  }
-  return {step * step * std::max({sum.r, sum.g, sum.b}), texels};
+  for (std::size_t i = 0; i < image.data.size(); i += 3) sum += glm::dvec3(image.data[i], image.data[i + 1], image.data[i + 2]);
+  return std::exp2(2 * level) * std::max({sum.r, sum.g, sum.b});
 }
 
-void BloomPass::blur(const GlTexture& excess, float strength, const ColorTarget<1>& scratch, const ColorTarget<1>& target,
-                     const PixelRect& texels, const GlareBlur& blur) const {
-  for (const Level& each : levels_) clear(each.glow);
-  if (strength <= 0) return;
+void BloomPass::glow(int number, double strength, const PixelRect& texels, const GlareBlur& blur) const {
+  const Level& to = level(number);
+  const PixelRect reached = texels_at(texels, number);
+  double own_gain = 0;
   for (const BloomBlur& step : blurs_) {
-    std::vector<float> taps = step.taps;
-    for (float& tap : taps) tap *= std::sqrt(strength);
-    if (step.level == 0) {
-      blur.add(excess, scratch, target, taps, texels);
-    } else {
-      const Level& at = level(step.level);
-      blur.add(at.shrunk.texture(), at.scratch, at.glow, taps, texels_at(texels, step.level));
-    }
+    if (step.level == number && step.taps.size() == 1) own_gain += strength * step.weight;
+  }
+  glUseProgram(up_.id());
+  glUniform1f(0, static_cast<float>(own_gain));
+  glUniform1f(1, number == coarsest() ? 0.0f : 1.0f);
+  glBindTextureUnit(TEXTURE_SOURCE, to.shrunk.texture().id());
+  glBindTextureUnit(TEXTURE_COARSER, (number == coarsest() ? to.shrunk : level(number + 1).glow).texture().id());
+  draw_over(to.glow, reached);
+  for (const BloomBlur& step : blurs_) {
+    if (step.level == number && step.taps.size() > 1 && strength > 0)
+      blur.add(to.shrunk.texture(), to.scratch, to.glow, step.taps, strength * step.weight, reached);
   }
 }
 
 void BloomPass::gather(const ColorTarget<1>& target, const PixelRect& texels) const {
-  glUseProgram(up_.id());
-  const AdditiveBlending blending;
-  for (std::size_t k = levels_.size(); k-- > 0;) {
-    glBindTextureUnit(TEXTURE_COARSER, levels_[k].glow.texture().id());
-    draw_over(k == 0 ? target : levels_[k - 1].glow, k == 0 ? texels : texels_at(texels, static_cast<int>(k)));
-  }
+  glUseProgram(up_to_grid_.id());
+  glBindTextureUnit(TEXTURE_COARSER, level(1).glow.texture().id());
+  draw_over(target, texels);
 }
 
 }  // namespace catchlight::render

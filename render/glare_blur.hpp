@@ -1,8 +1,8 @@
 // A separable blur on the glare grid.
 #pragma once
 
-#include <span>
 #include <string>
+#include <vector>
 
 #include "render/glare_target.hpp"
 #include "render/tap_programs.hpp"
@@ -13,9 +13,14 @@ class GlareBlur {
  public:
   explicit GlareBlur(const std::string& shader_folder);
 
-  /// Adds the blurred `source` to `target` over `texels`; both and `scratch` are of one size. `taps` at distance 0, 1, 2 ...
-  void add(const GlTexture& source, const ColorTarget<1>& scratch, const ColorTarget<1>& target, std::span<const float> taps,
-           const PixelRect& texels) const;
+  /// Makes one axis of a blur the current program: along the rows (0) or down the columns (1) of `source`. Both together have
+  /// `weight`.
+  void use(const GlTexture& source, int axis, const std::vector<double>& taps, double weight) const;
+
+  /// Adds `weight` times the blurred `source` to `target` over `texels`; both and `scratch` are of one size. `taps` at distance
+  /// 0, 1, 2 ...
+  void add(const GlTexture& source, const ColorTarget<1>& scratch, const ColorTarget<1>& target, const std::vector<double>& taps,
+           double weight, const PixelRect& texels) const;
 
  private:
   TapPrograms programs_;

@@ -12,11 +12,14 @@ namespace {
 /// A streak's attenuation is stated per pixel of a frame of so many rows.
 constexpr double kReferenceRows = 480.0;
 constexpr double kNarrowest_heights = 0.006, kFalloff = 0.65;
-/// Variance of the filter that halves the resolution, (1 3 3 1) / 8, and of a cubic B-spline; texels squared.
-constexpr double kDownVariance = 0.75, kUpVariance = 1.0 / 3.0;
-/// A level's own blur is at least as wide as this (texels squared), so that its texels do not show; a streak, fainter where it is
-/// sharp, may do without, and be wider than stated by this much.
-constexpr double kLeastBlur = 1.0, kLeastStreakBlur = -0.01;
+/// Variance of the filter that halves the resolution, (1 3 3 1) / 8, of bilinear reading, and of the cubic B-spline that goes up
+/// to the grid; texels squared.
+constexpr double kDownVariance = 0.75, kUpVariance = 3.0 / 16.0, kUpToGridVariance = 1.0 / 3.0;
+/// The narrowest Gaussian makes most of the bloom's peak: a level's own blur is at least as wide as this (texels squared), so
+/// that its texels do not show. The others, and a streak, fainter where it is sharp, may do without.
+constexpr double kLeastBlurOfNarrowest = 1.0;
+/// What blurs less than this (texels squared) is left out: with 240 rows at most 0.018 would be.
+constexpr double kNegligibleBlur = 0.05;
 /// A streak's steps are at most so long: what is left after one is above exp(-0.6). Coarser steps show in its profile.
 constexpr double kLongestStep = 0.6;
 /// Light below this is not worth drawing: a quarter of an 8-bit sRGB code in black is 7.6e-5.
@@ -25,30 +28,12 @@ constexpr double kInvisible = 2e-5;
 /// What going down to a level and up again blurs; texels squared of level 0.
 double pyramid_variance(int level) {
   double variance = 0;
-  for (int k = 0; k < level; ++k) variance += std::exp2(2 * k) * (kDownVariance + 4 * kUpVariance);
+  for (int k = 0; k < level; ++k) variance += std::exp2(2 * k) * (kDownVariance + 4 * (k == 0 ? kUpToGridVariance : kUpVariance));
   return variance;
 }
 
 double length_of_step(const glm::dvec2& direction) {
   return 1 / std::max(std::abs(direction.x), std::abs(direction.y));
-}
-
-void add_taps(StreakPassTaps& taps, const glm::dvec2& step, double steps, const glm::dvec3& weight) {
-  const bool along_x = std::abs(step.x) >= std::abs(step.y);
-  const int along = static_cast<int>(std::lround(steps * (along_x ? step.x : step.y)));
-  const double across = steps * (along_x ? step.y : step.x);
-  const auto tap = [&](int cross, double share) {
-    taps.push_back({along_x ? glm::ivec2(along, cross) : glm::ivec2(cross, along), glm::vec3(weight * share)});
-  };
-  const double rounded = std::round(across);
-  if (std::abs(across - rounded) < 1e-6) return tap(static_cast<int>(rounded), 1);
-  // The source is read at target - across: f beyond the first of the two texels around it, counted along the offset.
-  const int first = static_cast<int>(std::floor(across));
-  const double f = across - first;
-  tap(first - 1, f * (-0.5 + f * (1 - 0.5 * f)));
-  tap(first, 1 + f * f * (-2.5 + 1.5 * f));
-  tap(first + 1, f * (0.5 + f * (2 - 1.5 * f)));
-  tap(first + 2, f * f * (-0.5 + 0.5 * f));
 }
 
 }  // namespace
@@ -88,8 +73,9 @@ std::array<BloomGaussian, kBloomGaussians> bloom_gaussians() {
 
 std::vector<double> gaussian_taps(double variance) {
   // So narrow a Gaussian is no longer told by samples at the texels' centres: three taps of its variance.
-  if (variance < 0.25) return {1 - std::max(variance, 0.0), 0.5 * std::max(variance, 0.0)};
-  const int radius = std::clamp(static_cast<int>(std::ceil(3.5 * std::sqrt(variance))), 1, MAX_GLARE_BLUR_TAPS - 1);
+  if (variance <= 0) return {1};
+  if (variance < 0.25) return {1 - variance, 0.5 * variance};
+  const int radius = std::clamp(static_cast<int>(std::ceil(3.2 * std::sqrt(variance))), 1, MAX_GLARE_BLUR_TAPS - 1);
   std::vector<double> taps;
   double sum = 0;
   for (int d = 0; d <= radius; ++d) {
@@ -104,7 +90,8 @@ namespace {
 
 /// The blur that a level needs of its own for a Gaussian of that variance; both in texels squared, of the level and of level 0.
 double own_blur(double variance, int level) {
-  return (variance - pyramid_variance(level)) / std::exp2(2 * level);
+  const double blur = (variance - pyramid_variance(level)) / std::exp2(2 * level);
+  return std::abs(blur) < kNegligibleBlur ? 0 : blur;
 }
 
 int coarsest_level(double variance, double least_blur) {
@@ -119,11 +106,8 @@ std::vector<BloomBlur> plan_bloom(double rows_per_height) {
   std::vector<BloomBlur> blurs;
   for (const BloomGaussian& gaussian : bloom_gaussians()) {
     const double variance = std::pow(gaussian.sigma_heights * rows_per_height, 2);
-    BloomBlur blur{coarsest_level(variance, kLeastBlur), {}};
-    // Both passes of a separable blur carry the root of the weight.
-    for (const double tap : gaussian_taps(own_blur(variance, blur.level)))
-      blur.taps.push_back(static_cast<float>(tap * std::sqrt(gaussian.weight)));
-    blurs.push_back(std::move(blur));
+    const int level = coarsest_level(variance, blurs.empty() ? kLeastBlurOfNarrowest : 0);
+    blurs.push_back({level, gaussian.weight, gaussian_taps(own_blur(variance, level))});
   }
   return blurs;
 }
@@ -144,18 +128,16 @@ std::vector<glm::dvec2> streak_directions(int count, double rotation_deg) {
   return directions;
 }
 
-std::vector<StreakPassTaps> streak_passes(const glm::dvec2& direction, const glm::dvec3& log_per_texel, int passes,
-                                          const glm::dvec3& gain) {
+std::vector<StreakSamples> streak_passes(const glm::dvec2& direction, const glm::dvec3& log_per_texel, int passes,
+                                         const glm::dvec3& gain) {
   const double length = length_of_step(direction);
-  const glm::dvec2 step = direction * length;
-  std::vector<StreakPassTaps> result;
+  const glm::dvec2 step = direction * length, whole = glm::round(step);
+  const auto exact = [](double value, double near) { return std::abs(value - near) < 1e-6 ? near : value; };
+  std::vector<StreakSamples> result;
   for (int p = 0; p < passes; ++p) {
-    StreakPassTaps taps;
-    for (int s = 0; s < 4; ++s) {
-      const double steps = std::exp2(2 * p) * s;
-      add_taps(taps, step, steps, glm::exp(log_per_texel * length * steps) * (p + 1 == passes ? gain : glm::dvec3(1)));
-    }
-    result.push_back(std::move(taps));
+    const double steps = std::exp2(2 * p);
+    result.push_back({4, steps * glm::dvec2(exact(step.x, whole.x), exact(step.y, whole.y)),
+                      p + 1 == passes ? gain : glm::dvec3(1), glm::exp(log_per_texel * length * steps)});
   }
   return result;
 }
@@ -185,7 +167,7 @@ StreakGrid streak_grid(const GlareSettings& settings, double rows_per_height) {
   const double variance = std::pow(settings.streak_width * rows_per_height, 2);
   const glm::dvec3 logs = -streak_log_per_height(settings) / rows_per_height;
   const double steepest = std::max({logs.r, logs.g, logs.b});
-  int level = coarsest_level(variance, kLeastStreakBlur);
+  int level = coarsest_level(variance, 0);
   while (level > 0 && steepest * std::exp2(level) * std::sqrt(2) > kLongestStep) --level;
   return {level, own_blur(variance, level)};
 }

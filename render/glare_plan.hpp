@@ -35,15 +35,16 @@ struct BloomGaussian {
 inline constexpr int kBloomGaussians = 6;
 std::array<BloomGaussian, kBloomGaussians> bloom_gaussians();
 
-/// One of them as drawn: a separable blur at level `level` of a pyramid whose levels halve the resolution.
+/// One of them as drawn: at level `level` of a pyramid whose levels halve the resolution, blurred there by gaussian_taps().
 struct BloomBlur {
   int level;
-  std::vector<float> taps;  ///< weights at distance 0, 1, 2 ... texels of that level, both sides together `weight`
+  double weight;
+  std::vector<double> taps;  ///< one: going down and up the pyramid blurs enough
 };
 /// In the order of their levels. What going down and up the pyramid blurs is part of the stated width.
 std::vector<BloomBlur> plan_bloom(double rows_per_height);
 
-/// Weights of a Gaussian that sum to 1 over both sides; at distance 0, 1, 2 ...
+/// Weights of a Gaussian that sum to 1 over both sides; at distance 0, 1, 2 ... One where there is nothing to blur.
 std::vector<double> gaussian_taps(double variance);
 
 /// What is left of a streak one height further on, per channel, as natural logarithm (negative).
@@ -52,20 +53,20 @@ glm::dvec3 streak_log_per_height(const GlareSettings& settings);
 /// The directions in which a highlight's streaks leave it, unit vectors, y down.
 std::vector<glm::dvec2> streak_directions(int count, double rotation_deg);
 
-/// One texel that a pass reads: target - offset.
-struct StreakTap {
-  glm::ivec2 offset;
-  glm::vec3 weight;
+/// One pass: samples 0 ... count - 1 of the source at target - s * pace, weighted gain * falloff^s.
+struct StreakSamples {
+  int count;
+  glm::dvec2 pace;  ///< texels, whole along the direction's larger axis
+  glm::dvec3 gain, falloff;
 };
-using StreakPassTaps = std::vector<StreakTap>;
-inline constexpr int kMaxStreakTaps = 16, kMaxStreakPasses = 6;
+inline constexpr int kMaxStreakPasses = 6;
 
 /// Kawase's passes (GDC 2003): pass p adds up samples 0, 1, 2, 3 times 4^p steps away, weighted a^(4^p s), so that all together
 /// sample 0 ... 4^passes - 1 steps away, weighted a^k. A step is one texel along the direction's larger axis; between the texels
 /// of the other axis samples are interpolated by Catmull and Rom's cubic, which moves a picture without blurring it.
 /// `log_per_texel`: ln a per texel of length; `gain`: multiplies the last pass.
-std::vector<StreakPassTaps> streak_passes(const glm::dvec2& direction, const glm::dvec3& log_per_texel, int passes,
-                                          const glm::dvec3& gain);
+std::vector<StreakSamples> streak_passes(const glm::dvec2& direction, const glm::dvec3& log_per_texel, int passes,
+                                         const glm::dvec3& gain);
 
 /// Sum of those passes' weights by the trapezoidal rule, which counts the first sample half; per channel.
 glm::dvec3 streak_sum(const glm::dvec2& direction, const glm::dvec3& log_per_texel, int passes);

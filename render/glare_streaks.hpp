@@ -1,7 +1,9 @@
 // Streaks: the excess smeared along several directions, falling off exponentially (Kawase, GDC 2003).
 #pragma once
 
+#include <span>
 #include <string>
+#include <vector>
 
 #include "render/glare_plan.hpp"
 #include "render/glare_target.hpp"
@@ -13,18 +15,22 @@ class StreakPass {
  public:
   explicit StreakPass(const std::string& shader_folder);
 
-  void resize(int columns, int rows);
-
-  /// Before the first streak of a frame; all of them are drawn over the same texels.
-  void begin() const;
-
-  /// Adds the sum over `taps` of weight x source(texel - offset), pass after pass, to `target` over `texels`.
-  void add(const GlTexture& source, const std::vector<StreakPassTaps>& passes, const ColorTarget<1>& target,
-           const PixelRect& texels) const;
+  /// Adds to `target`, over `texels`, the sum over `arms` of what their passes make of `source`: one pass after the
+  /// other. All arms have as many passes. The source, of the target's size, is black
+  /// outside of `light`.
+  void add(const GlTexture& source, const PixelRect& light, std::span<const std::vector<StreakSamples>> arms,
+           const ColorTarget<1>& target, const PixelRect& texels);
 
  private:
-  TapPrograms programs_;
-  std::vector<ColorTarget<1>> between_;  ///< what one pass leaves to the next
+  void add_some(const GlTexture& source, const PixelRect& light, std::span<const std::vector<StreakSamples>> arms,
+                const ColorTarget<1>& target, const PixelRect& texels);
+  /// Makes a pass the current program. `down`: how far below the target's texels the source's lie; `bounds`: outside of these
+  /// texels of its the source counts as black.
+  void use(const GlTexture& source, const StreakSamples& samples, int down, const PixelRect& bounds) const;
+
+  TapPrograms straight_, slanted_;
+  /// What one pass leaves to the next: a band for each arm, one below the other, so that a pass draws them without a pause.
+  std::vector<ColorTarget<1>> between_;
 };
 
 }  // namespace catchlight::render

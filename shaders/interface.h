@@ -19,8 +19,8 @@ using glm::vec4;
 #define MAX_LIGHT_SAMPLES 128
 #define RECEIVER_CELLS 96
 #define GLARE_MARGIN 4  // texels around the glare grid and its halvings
+#define GLARE_TILE 2    // texels of the grid along a tile that is drawn or left out as a whole
 #define MAX_GLARE_BLUR_TAPS 16
-#define MAX_STREAK_TAPS 16
 #define LENS_BLUR_TAPS 96
 
 // Uniform blocks

@@ -1,11 +1,6 @@
 #include "tests/render/glare_fixture.hpp"
 
-#include <algorithm>
-#include <chrono>
-#include <limits>
-
 namespace catchlight::render::test {
-namespace {
 
 GlTexture upload(const Image& rgb) {
   GlTexture texture = make_texture_2d("picture", GL_RGBA32F, rgb.width, rgb.height);
@@ -13,8 +8,6 @@ GlTexture upload(const Image& rgb) {
   glTextureSubImage2D(texture.id(), 0, 0, 0, rgb.width, rgb.height, GL_RGB, GL_FLOAT, rgb.data.data());
   return texture;
 }
-
-}  // namespace
 
 Glared glared(GlarePass& pass, const Image& picture, const Image* emission) {
   const GlTexture object = upload(picture), emitted = emission ? upload(*emission) : GlTexture();
@@ -32,19 +25,6 @@ Glared glared(GlarePass& pass, const Image& picture, const Image* emission) {
 Glared glared(const GlareSettings& settings, const Image& picture, const Image* emission) {
   GlarePass pass(settings, "");
   return glared(pass, picture, emission);
-}
-
-double least_glare_ms(GlarePass& pass, const Image& picture, int runs) {
-  const GlTexture object = upload(picture);
-  double least = std::numeric_limits<double>::max();
-  for (int i = 0; i < runs; ++i) {
-    glFinish();
-    const auto start = std::chrono::steady_clock::now();
-    if (pass.extract(object, nullptr, {0, 0, picture.width, picture.height}, picture.width, picture.height)) pass.spread();
-    glFinish();
-    least = std::min(least, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
-  }
-  return least;
 }
 
 double sum_of(const Image& image, int channel) {

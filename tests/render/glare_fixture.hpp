@@ -6,6 +6,9 @@
 
 namespace catchlight::render::test {
 
+/// An RGB picture as the texture of a drawn object.
+GlTexture upload(const Image& rgb);
+
 struct Glared {
   bool any;
   PixelRect reach;
@@ -16,9 +19,6 @@ struct Glared {
 /// `picture`: exposed linear RGB of the whole frame. `emission`: what of it the object emits; null for nothing said.
 Glared glared(GlarePass& pass, const Image& picture, const Image* emission = nullptr);
 Glared glared(const GlareSettings& settings, const Image& picture, const Image* emission = nullptr);
-
-/// The least time of so many runs on the same picture, until the GPU is done.
-double least_glare_ms(GlarePass& pass, const Image& picture, int runs);
 
 /// Over all texels.
 double sum_of(const Image& image, int channel = 0);

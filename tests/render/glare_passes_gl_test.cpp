@@ -1,5 +1,6 @@
 // What the glare passes must keep, whatever the picture.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <limits>
@@ -20,7 +21,6 @@ constexpr int kSize = 301, kMiddle = 150;
 /// What the passes of one direction make of a single texel of light.
 Image streak_of_a_point(const glm::dvec2& direction, double log_per_texel, int passes, float light) {
   StreakPass pass("");
-  pass.resize(kSize, kSize);
   const ColorTarget<1> source = make_glare_target("point", kSize, kSize), target = make_glare_target("streak", kSize, kSize);
   clear(source);
   clear(target);
@@ -29,9 +29,8 @@ Image streak_of_a_point(const glm::dvec2& direction, double log_per_texel, int p
   const GlVertexArray no_attributes = make_vertex_array("no attributes");
   reset_state();
   glBindVertexArray(no_attributes.id());
-  pass.begin();
-  pass.add(source.texture(), streak_passes(direction, glm::dvec3(log_per_texel), passes, glm::dvec3(1)), target,
-           {0, 0, kSize, kSize});
+  const std::array arms{streak_passes(direction, glm::dvec3(log_per_texel), passes, glm::dvec3(1))};
+  pass.add(source.texture(), {kMiddle, kMiddle, 1, 1}, arms, target, {0, 0, kSize, kSize});
   return read_back(target.framebuffer(), 0, kSize, kSize, 3);
 }
 
@@ -104,6 +103,31 @@ TEST_F(GlarePassesGl, TheUsualWeightedAverageWouldFlicker) {
   Range energy;
   for (int i = 0; i <= 20; ++i) energy.add(energy_by_weighted_average(one_pixel_highlight(16, 16, 6 + 0.05 * i, 6, 1000)));
   EXPECT_GT(energy.spread(), 1) << "why the first filter is not that one";
+}
+
+/// Dim light all over, and two specks.
+Image specks(int width, int height, int shift_px) {
+  Image image(width, height, 3);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (int c = 0; c < 3; ++c) image.pixel(x, y)[c] = 0.5f + 0.4f * std::sin(0.7f * float(x - shift_px) + 1.3f * float(y + c));
+  for (int c = 0; c < 3; ++c) image.pixel(101 + shift_px, 77)[c] = 300, image.pixel(140 + shift_px, 90)[c] = 40;
+  return image;
+}
+
+TEST_F(GlarePassesGl, WhichTexelsAreDrawnTogetherDoesNotShow) {
+  // A shift by one texel of the grid moves the picture against the tiles; a low `brightest` lets the dim light around count.
+  GlareSettings settings;
+  settings.brightest = 2;
+  settings.grid_rows = 120;
+  GlarePass pass(settings, "");
+  const Image here = glared(pass, specks(320, 240, 0)).excess;
+  for (const int texels : {1, 2, 3}) {
+    const Image there = glared(pass, specks(320, 240, 2 * texels)).excess;
+    for (int y = 0; y < here.height; ++y)
+      for (int x = 30; x < 120; ++x)
+        ASSERT_NEAR(there.pixel(x + texels, y)[0], here.pixel(x, y)[0], 1e-4f) << x << ", " << y << " moved by " << texels;
+  }
 }
 
 // Brightness depends on neither passes nor resolution.

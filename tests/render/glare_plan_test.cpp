@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "render/glare_kernel.hpp"
+#include "render/glare_tiles.hpp"
 
 namespace catchlight::render::test {
 namespace {
@@ -28,12 +30,13 @@ TEST(GlarePlan, EveryBlurHasItsWeightAndFits) {
     double weight = 0;
     for (const BloomBlur& blur : plan_bloom(rows)) {
       double sum = -blur.taps.front();
-      for (const float tap : blur.taps) sum += 2 * tap;
-      weight += sum * sum;
+      for (const double tap : blur.taps) sum += 2 * tap;
+      EXPECT_NEAR(sum, 1, 1e-12) << rows;
+      weight += blur.weight;
       EXPECT_LE(blur.taps.size(), 16u) << rows;
       EXPECT_LE(blur.level, 8) << rows;
     }
-    EXPECT_NEAR(weight, 1, 1e-5) << rows;
+    EXPECT_NEAR(weight, 1, 1e-12) << rows;
   }
 }
 
@@ -75,6 +78,24 @@ TEST(GlarePlan, PassesReachAsFarAsTheLightUnlessSetByHand) {
   EXPECT_EQ(streak_pass_count(settings, 1e9), kMaxStreakPasses);
   settings.streak_passes = 2;
   EXPECT_EQ(streak_pass_count(settings, 1e9), 2);
+}
+
+TEST(GlareTiles, RectanglesHoldEveryTileThatGrowsOutOfOneOnce) {
+  TileMask mask{9, 7, std::vector<std::uint8_t>(63)};
+  for (const int at : {0, 31, 33, 62}) mask.marked[static_cast<std::size_t>(at)] = 1;
+  for (const auto& [across, down] : {std::pair(0, 0), std::pair(1, 0), std::pair(2, 1), std::pair(0, 3), std::pair(20, 20)}) {
+    std::vector<int> held(63);
+    for (const PixelRect& r : mask.grown(across, down).rectangles()) {
+      for (int y = r.y; y < r.y + r.height; ++y)
+        for (int x = r.x; x < r.x + r.width; ++x) ++held.at(static_cast<std::size_t>(9 * y + x));
+    }
+    for (int i = 0; i < 63; ++i) {
+      int wanted = 0;
+      for (const int at : {0, 31, 33, 62})
+        if (std::abs(at % 9 - i % 9) <= across && std::abs(at / 9 - i / 9) <= down) wanted = 1;
+      EXPECT_EQ(held[static_cast<std::size_t>(i)], wanted) << "tile " << i << " grown by " << across << ", " << down;
+    }
+  }
 }
 
 TEST(GlareKernel, SumsToTheStrengthsAtAnyResolution) {
