@@ -2,6 +2,7 @@
 // kernels, as CSV. Errors are in per cent of the reference's peak. Times are medians of runs that take turns. Whole against
 // whole: GlarePass against ApertureGlarePass, each from the drawn object to the texture that the composite reads; and what they
 // do with the same excess: GlarePass::spread() against FftConvolution::convolve(). Neither counts the making of the kernel.
+// The classic look's glare has a kernel of its own: it is scaled to the reference's energy, and what is left is its shape.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "render/aperture_glare_pass.hpp"
+#include "render/classic_look.hpp"
 #include "render/fft_convolution.hpp"
 #include "render/glare_kernel.hpp"
 #include "tests/render/glare_fixture.hpp"
@@ -70,6 +72,17 @@ struct Result {
   Times times;
 };
 
+Result compared(const Image& glare, const Image& reference, const Times& times) {
+  Result result{0, 0, times};
+  const double peak = *std::max_element(reference.data.begin(), reference.data.end());
+  for (std::size_t i = 0; i < glare.data.size(); ++i) {
+    const double d = std::abs(glare.data[i] - reference.data[i]);
+    result.largest = std::max(result.largest, 100 * d / peak);
+    result.mean += 100 * d / peak / static_cast<double>(glare.data.size());
+  }
+  return result;
+}
+
 /// `excess_rows`: grid whose excess the reference is made from; 0: the fast passes' own.
 Result measure(const GlareSettings& settings, const Image& picture, int excess_rows = 0) {
   const int width = picture.width, height = picture.height;
@@ -84,16 +97,52 @@ Result measure(const GlareSettings& settings, const Image& picture, int excess_r
   whole.streak_passes = 0;
   const FftConvolution convolution(glare_kernel(whole, height, 2 * width - 1, 2 * height - 1), width, height);
   const Image reference = convolution.convolve(excess);
-  Result result{};
-  result.times = time_in_turns(settings, pass, picture, convolution, excess);
-  double peak = 0;
-  for (const float value : reference.data) peak = std::max<double>(peak, value);
-  for (std::size_t i = 0; i < glare.data.size(); ++i) {
-    const double d = std::abs(glare.data[i] - reference.data[i]);
-    result.largest = std::max(result.largest, 100 * d / peak);
-    result.mean += 100 * d / peak / static_cast<double>(glare.data.size());
+  return compared(glare, reference, time_in_turns(settings, pass, picture, convolution, excess));
+}
+
+/// A square texture stretched over the picture, bilinearly; adds `weight` of it.
+void add_stretched(const GlTexture& texture, int size, double weight, Image& picture) {
+  Image square(size, size, 3);
+  glGetTextureImage(texture.id(), 0, GL_RGB, GL_FLOAT, static_cast<GLsizei>(square.data.size() * sizeof(float)),
+                    square.data.data());
+  const auto at = [&](double place, double pixels) { return std::clamp((place + 0.5) / pixels * size - 0.5, 0.0, size - 1.0); };
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      const double u = at(x, picture.width), v = at(y, picture.height);
+      const int left = static_cast<int>(u), top = static_cast<int>(v);
+      const int right = std::min(left + 1, size - 1), bottom = std::min(top + 1, size - 1);
+      for (int c = 0; c < 3; ++c) {
+        const double above = std::lerp(square.pixel(left, top)[c], square.pixel(right, top)[c], u - left);
+        const double below = std::lerp(square.pixel(left, bottom)[c], square.pixel(right, bottom)[c], u - left);
+        picture.pixel(x, y)[c] += static_cast<float>(weight * std::lerp(above, below, v - top));
+      }
+    }
+}
+
+/// The classic look's glare, against the default kernel's.
+Result measure_classic(const Image& picture) {
+  const int width = picture.width, height = picture.height;
+  GlareSettings settings;
+  GlarePass pass(settings, "");
+  const test::Glared fast = test::glared(pass, picture);
+  const Image excess = at_frame_pixels(fast.excess, fast.grid, width, height);
+  settings.streak_passes = 0;
+  const FftConvolution convolution(glare_kernel(settings, height, 2 * width - 1, 2 * height - 1), width, height);
+  const Image reference = convolution.convolve(excess);
+  const GlTexture object = test::upload(picture);
+  ClassicLook look("");
+  std::vector<double> classic_ms, reference_ms;
+  for (int run = 0; run < kRuns; ++run) {
+    classic_ms.push_back(time_ms([&] { look.draw(object, width, height, 1, 0.9); }));
+    reference_ms.push_back(time_ms([&] { convolution.convolve(excess); }));
   }
-  return result;
+  Image glare(width, height);
+  add_stretched(look.bloom(), 512, 1, glare);
+  add_stretched(look.streaks(), 128, 1, glare);
+  double energy = 0, wanted = 0;
+  for (std::size_t i = 0; i < glare.data.size(); ++i) energy += glare.data[i], wanted += reference.data[i];
+  for (float& value : glare.data) value = static_cast<float>(value * wanted / energy);
+  return compared(glare, reference, {median(classic_ms), median(classic_ms), median(reference_ms), median(reference_ms)});
 }
 
 class Table {
@@ -119,6 +168,7 @@ void run(std::ostream& out) {
   }
   for (const test::NamedScene& scene : test::glare_scenes()) {
     const Image picture = scene.make(640, 480);
+    table.add("classic", scene.name, 0, 480, measure_classic(picture));
     GlareSettings settings;
     for (settings.streak_passes = 1; settings.streak_passes <= 4; ++settings.streak_passes)
       table.add("passes", scene.name, settings.streak_passes, 480, measure(settings, picture));
