@@ -64,15 +64,8 @@ const Footage& footage(bool cluttered) {
   return kinds[cluttered ? 1 : 0];
 }
 
-TrackerOptions one_thread(Refinement refinement) {
-  TrackerOptions options;
-  options.refinement = refinement;
-  options.threads = 1;
-  return options;
-}
-
 void detect(benchmark::State& state, bool cluttered, double decimate) {
-  Detector detector("tag36h11", one_thread(Refinement::none));
+  Detector detector("tag36h11", {.refinement = Refinement::none});
   int i = 0;
   for (auto _ : state) benchmark::DoNotOptimize(detector.detect(footage(cluttered).at(i++).luma(), decimate));
 }
@@ -97,7 +90,7 @@ void aruco(benchmark::State& state, bool cluttered, cv::aruco::CornerRefineMetho
 
 /// Frames `frame_s` apart: longer than a lost tag's pose is predicted, each is the first. `missed` counts frames without the tag.
 void track(benchmark::State& state, bool cluttered, Refinement refinement, double frame_s) {
-  Tracker tracker(footage(cluttered).camera, {}, one_thread(refinement));
+  Tracker tracker(footage(cluttered).camera, {}, {.refinement = refinement});
   int i = 0, missed = 0;
   for (auto _ : state) {
     const TagObservation seen = tracker.track(footage(cluttered).at(i).luma(), i * frame_s);

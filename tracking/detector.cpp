@@ -19,8 +19,6 @@ constexpr int kSmallestImagePx = 16;
 void check_options(const TrackerOptions& options) {
   if (options.max_hamming < 0 || options.max_hamming > 2)
     throw Error("corrected bits (max_hamming) must be 0, 1 or 2, not " + std::to_string(options.max_hamming));
-  if (options.threads < 1 || options.threads > 256)
-    throw Error("detector threads must be from 1 to 256, not " + std::to_string(options.threads));
 }
 
 }  // namespace
@@ -40,7 +38,9 @@ Detector::Detector(const std::string& family, const TrackerOptions& options) {
   check_options(options);
   impl_ = std::make_unique<Impl>(Impl{create_family(family)});
   apriltag_detector_add_family_bits(impl_->detector.get(), impl_->family.get(), options.max_hamming);
-  impl_->detector->nthreads = options.threads;
+  // With more, version 3.3.0 crashes now and then: a worker thread that starts late reads its task from a list that still grows,
+  // and calls what it finds in freed memory (AprilRobotics/apriltag#339).
+  impl_->detector->nthreads = 1;
 }
 
 Detector::~Detector() = default;

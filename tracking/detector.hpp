@@ -28,8 +28,8 @@ class Detector {
   Detector(Detector&&) noexcept;
   Detector& operator=(Detector&&) noexcept;
 
-  /// Edges are sought in a picture made `decimate` times smaller (from 1 to 8), bits read in the full one. In an order that does
-  /// not depend on the number of threads.
+  /// Edges are sought in a picture made `decimate` times smaller (from 1 to 8), bits read in the full one. On the calling
+  /// thread, in an order that depends on nothing but the picture.
   std::vector<Detection> detect(const LumaView& luma, double decimate = 1);
 
  private:

@@ -94,7 +94,6 @@ enum class Refinement {
 struct TrackerOptions {
   Refinement refinement = Refinement::direct;
   int max_hamming = 1;
-  int threads = 2;
   double coast_s = 0.2;  ///< how long a lost tag's pose is predicted
 };
 

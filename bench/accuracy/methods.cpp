@@ -14,13 +14,6 @@
 namespace catchlight::tracking {
 namespace {
 
-TrackerOptions one_thread(Refinement refinement) {
-  TrackerOptions options;
-  options.refinement = refinement;
-  options.threads = 1;
-  return options;
-}
-
 /// OpenCV's own IPPE, the better of its two poses.
 std::optional<Estimate> with_pose(const Clip& clip, const Corners& corners_px) {
   const CameraModel& camera = clip.camera;
@@ -53,7 +46,7 @@ MethodResult frame_by_frame(const std::string& method, const Clip& clip, const E
 }
 
 MethodResult apriltag_alone(const Clip& clip) {
-  Detector detector(clip.target.family, one_thread(Refinement::none));
+  Detector detector(clip.target.family, {.refinement = Refinement::none});
   return frame_by_frame("AprilTag", clip, [&](const ClipFrame& frame) -> std::optional<Estimate> {
     for (const Detection& detection : detector.detect(frame.picture.luma(), 1))
       if (detection.id == clip.target.id) return with_pose(clip, detection.corners_px);
@@ -92,7 +85,7 @@ std::optional<Estimate> estimate_of(const TagObservation& seen) {
 
 MethodResult rung(const std::string& method, const Clip& clip, Refinement refinement) {
   return frame_by_frame(method, clip, [&](const ClipFrame& frame) {
-    Tracker tracker(clip.camera, clip.target, one_thread(refinement));
+    Tracker tracker(clip.camera, clip.target, {.refinement = refinement});
     return estimate_of(tracker.track(frame.picture.luma(), frame.time_s));
   });
 }
@@ -114,7 +107,7 @@ std::vector<MethodResult> rungs(const Clip& clip) {
 }
 
 std::vector<MethodResult> followed(const Clip& clip) {
-  RecordedPath path(clip.camera, clip.target, one_thread(Refinement::direct));
+  RecordedPath path(clip.camera, clip.target, {});
   MethodResult causal{"direct, follow", {}}, solved{"direct, path", {}};
   for (const ClipFrame& frame : clip.frames)
     causal.estimates.push_back(estimate_of(path.add(frame.picture.luma(), frame.time_s)));

@@ -1,7 +1,10 @@
-// Conventions of the detector: which corner, which pixel centre, and that threads change nothing.
+// Conventions of the detector: which corner, which pixel centre, in which order.
 #include "tracking/detector.hpp"
 
 #include <gtest/gtest.h>
+
+#include <filesystem>
+#include <iterator>
 
 #include "tests/tracking/synthetic_tag.hpp"
 #include "tracking/planar_pose.hpp"
@@ -54,7 +57,21 @@ TEST(Detector, LibraryPixelsLoseHalfAPixel) {
   EXPECT_EQ(corners_from_library(library)[2], glm::dvec2(9.5, 7.5));
 }
 
-TEST(Detector, ThreadsDoNotChangeTheResult) {
+std::ptrdiff_t threads_of_this_process() {
+  return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
+}
+
+// The library's own threads crash, too rarely for a test: one that starts late reads its task from a list that was moved
+// meanwhile.
+TEST(Detector, StartsNoThreads) {
+  const SyntheticFrame frame = render(facing_tag({320, 240}, 20));
+  const std::ptrdiff_t before = threads_of_this_process();
+  Detector detector("tag36h11", {});
+  ASSERT_EQ(detector.detect(frame.luma()).size(), 1u);
+  EXPECT_EQ(threads_of_this_process(), before);
+}
+
+TEST(Detector, FindsTagsOfOneNumberInTheSameOrderEachTime) {
   SyntheticScene scene = facing_tag({150, 150}, 10);
   for (const int id : {3, 3, 8}) {
     SyntheticTag tag;
@@ -65,18 +82,12 @@ TEST(Detector, ThreadsDoNotChangeTheResult) {
   }
   scene.noise_codes = 3;
   const SyntheticFrame frame = render(scene);
-  TrackerOptions one, two, three;
-  one.threads = 1;
-  three.threads = 3;
-  const auto a = Detector("tag36h11", one).detect(frame.luma());
+  const auto a = Detector("tag36h11", {}).detect(frame.luma()), b = Detector("tag36h11", {}).detect(frame.luma());
   ASSERT_EQ(a.size(), 4u);
-  for (const TrackerOptions& options : {two, three}) {
-    const auto b = Detector("tag36h11", options).detect(frame.luma());
-    ASSERT_EQ(a.size(), b.size());
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      EXPECT_EQ(a[i].id, b[i].id);
-      EXPECT_EQ(a[i].corners_px, b[i].corners_px);
-    }
+  ASSERT_EQ(b.size(), 4u);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].id, b[i].id);
+    EXPECT_EQ(a[i].corners_px, b[i].corners_px);
   }
 }
 
@@ -110,7 +121,6 @@ TEST(Detector, RefusesOptionsOutOfRange) {
   };
   EXPECT_THROW(Detector("tag36h11", with(&TrackerOptions::max_hamming, 3)), Error);
   EXPECT_THROW(Detector("tag36h11", with(&TrackerOptions::max_hamming, -1)), Error);
-  EXPECT_THROW(Detector("tag36h11", with(&TrackerOptions::threads, 0)), Error);
   EXPECT_THROW(Detector("", {}), Error);
 }
 
