@@ -15,3 +15,7 @@ if(CATCHLIGHT_COVERAGE)
   target_compile_options(catchlight_options INTERFACE --coverage -O0)
   target_link_options(catchlight_options INTERFACE --coverage)
 endif()
+
+add_library(catchlight_headers OBJECT ${PROJECT_SOURCE_DIR}/cmake/headers.cpp)
+target_link_libraries(catchlight_headers PRIVATE catchlight_options)
+target_precompile_headers(catchlight_headers PRIVATE ${PROJECT_SOURCE_DIR}/cmake/headers.hpp)

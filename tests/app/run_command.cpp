@@ -18,6 +18,8 @@ namespace {
   };
   redirect(STDOUT_FILENO, output);
   redirect(STDERR_FILENO, error);
+  // A cache folder of a test's own would have Mesa compile every shader anew.
+  setenv("MESA_SHADER_CACHE_DIR", CATCHLIGHT_BINARY_DIR "/shader_cache", 0);
   for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
   execv(arguments[0], arguments.data());
   _exit(127);

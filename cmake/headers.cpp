@@ -1,0 +1,1 @@
+// Nothing: the headers are precompiled for it, and the libraries reuse them.
