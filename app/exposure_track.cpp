@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tracking/statistics.hpp"
+
 namespace catchlight::app {
 namespace {
 
@@ -16,13 +18,6 @@ void interpolate(const TrackRow& before, const TrackRow& after, TrackRow& row) {
   const double share = static_cast<double>(row.frame - before.frame) / static_cast<double>(after.frame - before.frame);
   for (int c = 0; c < 3; ++c) row.exposure[c] = before.exposure[c] * std::pow(after.exposure[c] / before.exposure[c], share);
   row.black = glm::mix(before.black, after.black, share);
-}
-
-/// Of an even number, the lower one of the middle two: always one that was given.
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// The frames that know the channel, within reach; else the nearest one either side.
@@ -61,8 +56,8 @@ bool match(const Witnesses& all, std::size_t frame, int channel, double& white, 
     whites = {here.own.exposure.white[channel]};
     blacks = {here.own.exposure.black[channel]};
   }
-  white = median(std::move(whites));
-  black = median(std::move(blacks));
+  white = tracking::quantile(std::move(whites), 0.5);
+  black = tracking::quantile(std::move(blacks), 0.5);
   return true;
 }
 

@@ -19,6 +19,7 @@
 #include "render/glare_kernel.hpp"
 #include "tests/render/glare_fixture.hpp"
 #include "tests/render/glare_scenes.hpp"
+#include "tracking/statistics.hpp"
 
 namespace catchlight::render {
 namespace {
@@ -38,12 +39,6 @@ double time_ms(const Work& work) {
   glFinish();
   return is_software ? 1000.0 * static_cast<double>(std::clock() - processor_start) / CLOCKS_PER_SEC
                      : std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 struct Times {
@@ -69,7 +64,7 @@ Times time_in_turns(const GlareSettings& settings, GlarePass& fast, const Image&
     }));
     convolve_ms.push_back(time_ms([&] { convolution.convolve(excess); }));
   }
-  return {median(fast_ms), median(spread_ms), median(reference_ms), median(convolve_ms)};
+  return {tracking::median(fast_ms), tracking::median(spread_ms), tracking::median(reference_ms), tracking::median(convolve_ms)};
 }
 
 struct Result {
@@ -147,7 +142,9 @@ Result measure_classic(const Image& picture) {
   double energy = 0, wanted = 0;
   for (std::size_t i = 0; i < glare.data.size(); ++i) energy += glare.data[i], wanted += reference.data[i];
   for (float& value : glare.data) value = static_cast<float>(value * wanted / energy);
-  return compared(glare, reference, {median(classic_ms), median(classic_ms), median(reference_ms), median(reference_ms)});
+  return compared(glare, reference,
+                  {tracking::median(classic_ms), tracking::median(classic_ms), tracking::median(reference_ms),
+                   tracking::median(reference_ms)});
 }
 
 class Table {
