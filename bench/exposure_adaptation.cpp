@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "render/tone_adaptation.hpp"
+#include "render/tone/tone_adaptation.hpp"
 
 namespace {
 

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "app/frame_track.hpp"
-#include "app/media/source.hpp"
-#include "tests/app/exposure_fixture.hpp"
-#include "tracking/camera_file.hpp"
+#include "app/media/read/source.hpp"
+#include "app/session/frame_track.hpp"
+#include "tests/support/exposure_fixture.hpp"
+#include "tracking/camera/camera_file.hpp"
 
 namespace {
 

@@ -13,12 +13,12 @@
 #include <iostream>
 #include <vector>
 
-#include "render/aperture_glare_pass.hpp"
-#include "render/classic_look.hpp"
-#include "render/fft_convolution.hpp"
-#include "render/glare_kernel.hpp"
-#include "tests/render/glare_fixture.hpp"
-#include "tests/render/glare_scenes.hpp"
+#include "render/glare/glare_kernel.hpp"
+#include "render/math/fft_convolution.hpp"
+#include "render/passes/glare/aperture_glare_pass.hpp"
+#include "render/passes/glare/classic_glare.hpp"
+#include "tests/support/glare_fixture.hpp"
+#include "tests/support/glare_scenes.hpp"
 #include "tracking/statistics.hpp"
 
 namespace catchlight::render {

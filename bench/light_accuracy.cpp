@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "bench/accuracy/light_scene.hpp"
-#include "render/parallel.hpp"
-#include "render/probe_split.hpp"
+#include "render/math/parallel.hpp"
+#include "render/probe/probe_split.hpp"
 
 namespace {
 

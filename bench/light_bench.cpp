@@ -3,13 +3,13 @@
 
 #include <cmath>
 
-#include "render/hemisphere_rays.hpp"
-#include "render/prefilter.hpp"
-#include "render/probe.hpp"
-#include "render/probe_split.hpp"
-#include "render/ray_scene.hpp"
-#include "render/transfer.hpp"
-#include "tests/render/shapes.hpp"
+#include "render/math/hemisphere_rays.hpp"
+#include "render/probe/prefilter.hpp"
+#include "render/probe/probe.hpp"
+#include "render/probe/probe_split.hpp"
+#include "render/rays/ray_scene.hpp"
+#include "render/transfer/transfer.hpp"
+#include "tests/support/shapes.hpp"
 
 namespace catchlight::render {
 namespace {

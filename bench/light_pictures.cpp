@@ -8,9 +8,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "app/media/source.hpp"
-#include "app/overlay.hpp"
-#include "render/probe_split.hpp"
+#include "app/media/read/source.hpp"
+#include "app/session/overlay.hpp"
+#include "render/probe/probe_split.hpp"
 
 namespace {
 

@@ -1,7 +1,7 @@
 // Milliseconds a frame and a pass at two sizes of picture; the object fills a third of its height.
 #include <benchmark/benchmark.h>
 
-#include "tests/render/gl_fixture.hpp"
+#include "tests/support/gl_fixture.hpp"
 
 namespace catchlight::render::test {
 namespace {

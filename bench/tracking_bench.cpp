@@ -7,11 +7,11 @@
 #include <opencv2/aruco.hpp>
 #endif
 
-#include "tests/tracking/synthetic_tag.hpp"
-#include "tracking/corner_refinement.hpp"
-#include "tracking/detector.hpp"
-#include "tracking/families.hpp"
-#include "tracking/planar_pose.hpp"
+#include "tests/support/synthetic_tag.hpp"
+#include "tracking/detection/detector.hpp"
+#include "tracking/detection/families.hpp"
+#include "tracking/pose/planar_pose.hpp"
+#include "tracking/refinement/corner_refinement.hpp"
 
 namespace catchlight::tracking {
 namespace {

@@ -4,20 +4,20 @@
 #include <cmath>
 #include <limits>
 
-#include "render/aperture_glare_pass.hpp"
-#include "render/composite_pass.hpp"
-#include "render/gl_context.hpp"
-#include "render/glare.hpp"
-#include "render/lens.hpp"
-#include "render/lens_blur.hpp"
-#include "render/light_transfer.hpp"
-#include "render/object_layers.hpp"
-#include "render/object_pass.hpp"
-#include "render/pass_clock.hpp"
-#include "render/receiver_pass.hpp"
+#include "render/camera/lens.hpp"
+#include "render/gl/gl_context.hpp"
+#include "render/gl/pass_clock.hpp"
+#include "render/passes/composite_pass.hpp"
+#include "render/passes/glare/aperture_glare_pass.hpp"
+#include "render/passes/glare/glare_pass.hpp"
+#include "render/passes/lens_blur_pass.hpp"
+#include "render/passes/light_transfer.hpp"
+#include "render/passes/object_layers.hpp"
+#include "render/passes/object_pass.hpp"
+#include "render/passes/receiver_pass.hpp"
+#include "render/passes/shadowed_lights.hpp"
+#include "render/passes/tone_pass.hpp"
 #include "render/scene_check.hpp"
-#include "render/shadowed_lights.hpp"
-#include "render/tone_pass.hpp"
 
 namespace catchlight::render {
 namespace {

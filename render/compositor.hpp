@@ -11,14 +11,14 @@
 #include <vector>
 
 #include "catchlight.hpp"
-#include "render/image.hpp"
-#include "render/lens_view.hpp"
-#include "render/light_samples.hpp"
-#include "render/mesh.hpp"
-#include "render/prefilter.hpp"
-#include "render/sh.hpp"
-#include "render/tone_curve.hpp"
-#include "render/transfer.hpp"
+#include "render/camera/lens_view.hpp"
+#include "render/image/image.hpp"
+#include "render/math/sh.hpp"
+#include "render/mesh/mesh.hpp"
+#include "render/probe/light_samples.hpp"
+#include "render/probe/prefilter.hpp"
+#include "render/tone/tone_curve.hpp"
+#include "render/transfer/transfer.hpp"
 #include "response_curve.hpp"
 
 namespace catchlight::render {
@@ -63,13 +63,13 @@ struct GlareSettings {
   int emitter_directions = 0;     ///< streaks of what they emit; 0: as of the rest
   int streak_passes = 0;          ///< of four samples each; 0: as many as can be seen
   int grid_rows = 240;            ///< resolution that glare is computed at; texels are never smaller than pixels
-  std::string method = "fast";    ///< or "fft": of an aperture, as render/fft_glare.hpp says
+  std::string method = "fast";    ///< or "fft": of an aperture, as render/glare/fft_glare.hpp says
   std::string aperture = "none";  ///< or what aperture_picture() takes
   double aperture_mm = 2;         ///< width of its picture
   double aperture_strength = 1;   ///< 1: as much as the aperture diffracts
 };
 
-/// `classic`: bloom and streaks of the whole picture as in render/classic_look.hpp, instead of those of the object's highlights.
+/// `classic`: bloom and streaks of the whole picture as in render/passes/glare/classic_glare.hpp, instead of those of the object's highlights.
 enum class Look { camera, classic };
 
 struct CompositorSettings {

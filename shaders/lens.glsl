@@ -1,4 +1,4 @@
-// render/lens.hpp's distorted(), see there.
+// render/camera/lens.hpp's distorted(), see there.
 float radial_factor(float r2) {
   vec3 powers = vec3(r2, r2 * r2, r2 * r2 * r2);
   return (1.0 + dot(view.radial_numerator.xyz, powers)) / (1.0 + dot(view.radial_denominator.xyz, powers));

@@ -1,4 +1,4 @@
-// Rays against the object in the tag frame: render/skip_bvh.hpp's hierarchy, walked without a stack.
+// Rays against the object in the tag frame: render/rays/skip_bvh.hpp's hierarchy, walked without a stack.
 struct BvhNode {
   vec3 min_m;
   uint triangles;  // first * 8 + count; count 0: an inner node

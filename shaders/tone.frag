@@ -1,4 +1,4 @@
-// The photographic operator, extended (Reinhard et al. 2002; render/tone_curve.cpp has the same), then the footage's response.
+// The photographic operator, extended (Reinhard et al. 2002; render/tone/tone_curve.cpp has the same), then the footage's response.
 #version 450 core
 #include "interface.h"
 #include "color.glsl"

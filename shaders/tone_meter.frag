@@ -1,4 +1,4 @@
-// Counts the frame's luminances: render/tone_curve.hpp's LuminanceHistogram. Only whole numbers are added, in any order.
+// Counts the frame's luminances: render/tone/tone_curve.hpp's LuminanceHistogram. Only whole numbers are added, in any order.
 #version 450 core
 #include "interface.h"
 

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tracking/corner_noise.hpp"
-#include "tracking/corner_refinement.hpp"
-#include "tracking/direct_refinement.hpp"
-#include "tracking/planar_pose.hpp"
-#include "tracking/pose_covariance.hpp"
-#include "tracking/pose_memory.hpp"
-#include "tracking/tag_search.hpp"
+#include "tracking/detection/tag_search.hpp"
+#include "tracking/pose/corner_noise.hpp"
+#include "tracking/pose/planar_pose.hpp"
+#include "tracking/pose/pose_covariance.hpp"
+#include "tracking/pose/pose_memory.hpp"
+#include "tracking/refinement/corner_refinement.hpp"
+#include "tracking/refinement/direct_refinement.hpp"
 
 namespace catchlight::tracking {
 namespace {

@@ -1,8 +1,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/text.hpp"
-#include "app/track_export/camera_path.hpp"
+#include "app/support/text.hpp"
+#include "app/track_export/camera_trajectory.hpp"
 #include "app/track_export/formats.hpp"
 
 namespace catchlight::app {

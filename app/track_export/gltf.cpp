@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "app/track_export/camera_path.hpp"
+#include "app/track_export/camera_trajectory.hpp"
 #include "app/track_export/formats.hpp"
 
 namespace catchlight::app {

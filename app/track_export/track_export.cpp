@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <map>
 
-#include "app/output_file.hpp"
-#include "app/text.hpp"
+#include "app/support/output_file.hpp"
+#include "app/support/text.hpp"
 #include "app/track_export/formats.hpp"
 
 namespace catchlight::app {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "app/scene_settings.hpp"
-#include "app/track_file.hpp"
+#include "app/settings/scene_settings.hpp"
+#include "app/track_export/track_file.hpp"
 #include "catchlight.hpp"
 
 namespace catchlight::app {

@@ -1,5 +1,5 @@
-#include "app/text.hpp"
-#include "app/track_export/camera_path.hpp"
+#include "app/support/text.hpp"
+#include "app/track_export/camera_trajectory.hpp"
 #include "app/track_export/formats.hpp"
 
 namespace catchlight::app {

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "tests/tracking/synthetic_tag.hpp"
+#include "tests/support/synthetic_tag.hpp"
 
 namespace catchlight::tracking {
 

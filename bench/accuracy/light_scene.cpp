@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
-#include "tests/render/shapes.hpp"
+#include "tests/support/shapes.hpp"
 
 namespace catchlight::render {
 namespace {

@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "render/mesh.hpp"
-#include "render/ray_scene.hpp"
-#include "render/transfer.hpp"
+#include "render/mesh/mesh.hpp"
+#include "render/rays/ray_scene.hpp"
+#include "render/transfer/transfer.hpp"
 
 namespace catchlight::render {
 

@@ -8,8 +8,8 @@
 #include <opencv2/aruco.hpp>
 #endif
 
-#include "tracking/detector.hpp"
-#include "tracking/recorded_path.hpp"
+#include "tracking/detection/detector.hpp"
+#include "tracking/shot_tracker.hpp"
 
 namespace catchlight::tracking {
 namespace {

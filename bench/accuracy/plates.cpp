@@ -6,7 +6,7 @@
 
 #include "bench/accuracy/experiments.hpp"
 #include "bench/accuracy/score.hpp"
-#include "tracking/camera_file.hpp"
+#include "tracking/camera/camera_file.hpp"
 
 namespace catchlight::tracking {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <glm/glm.hpp>
 
-#include "render/mesh.hpp"
+#include "render/mesh/mesh.hpp"
 
 namespace catchlight::render::reference {
 

@@ -8,7 +8,7 @@ CameraRays::CameraRays(const CameraModel& camera, const RigidTransform& camera_f
       camera_from_tag_(camera_from_tag),
       origin_tag_m_(inverse(camera_from_tag).translation_m) {}
 
-// Newton's method on render/lens.hpp's distorted(), with slopes by differences.
+// Newton's method on render/camera/lens.hpp's distorted(), with slopes by differences.
 glm::dvec2 CameraRays::without_distortion(const glm::dvec2& seen) const {
   constexpr double kStep = 1e-6, kClose = 1e-12;
   if (!camera_.has_distortion()) return seen;

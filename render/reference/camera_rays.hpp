@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "catchlight.hpp"
-#include "render/lens.hpp"
+#include "render/camera/lens.hpp"
 
 namespace catchlight::render::reference {
 

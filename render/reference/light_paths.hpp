@@ -9,7 +9,7 @@
 
 #include <memory>
 
-#include "render/ray_scene.hpp"
+#include "render/rays/ray_scene.hpp"
 #include "render/reference/brdf.hpp"
 #include "render/reference/camera_rays.hpp"
 #include "render/reference/point_stream.hpp"

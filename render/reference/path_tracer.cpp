@@ -1,6 +1,6 @@
 #include "render/reference/path_tracer.hpp"
 
-#include "render/parallel.hpp"
+#include "render/math/parallel.hpp"
 
 namespace catchlight::render::reference {
 namespace {

@@ -1,7 +1,7 @@
 // The random numbers of one path.
 #pragma once
 
-#include "render/hemisphere_rays.hpp"
+#include "render/math/hemisphere_rays.hpp"
 
 namespace catchlight::render::reference {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/parallel.hpp"
+#include "render/math/parallel.hpp"
 
 namespace catchlight::render::reference {
 namespace {

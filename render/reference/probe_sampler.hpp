@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "render/probe.hpp"
+#include "render/probe/probe.hpp"
 
 namespace catchlight::render::reference {
 

@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "catchlight.hpp"
-#include "render/image.hpp"
-#include "render/mesh.hpp"
-#include "render/probe.hpp"
+#include "render/image/image.hpp"
+#include "render/mesh/mesh.hpp"
+#include "render/probe/probe.hpp"
 
 namespace catchlight::render::reference {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/render/gl_fixture.hpp"
+#include "tests/support/gl_fixture.hpp"
 
 namespace catchlight::render::test {
 namespace {

@@ -1,5 +1,5 @@
 // A few whole pictures, and the comparator that guards them.
-#include "tests/render/golden.hpp"
+#include "tests/support/golden.hpp"
 
 #include <gmock/gmock.h>
 
@@ -9,7 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "tests/render/gl_fixture.hpp"
+#include "tests/support/gl_fixture.hpp"
 
 namespace catchlight::render::test {
 namespace {

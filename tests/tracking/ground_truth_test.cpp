@@ -8,9 +8,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
-#include "tests/tracking/pose_error.hpp"
-#include "tests/tracking/synthetic_tag.hpp"
-#include "tracking/camera_file.hpp"
+#include "tests/support/pose_error.hpp"
+#include "tests/support/synthetic_tag.hpp"
+#include "tracking/camera/camera_file.hpp"
 #include "tracking/tracker.hpp"
 
 namespace catchlight::tracking {

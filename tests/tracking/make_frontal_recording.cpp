@@ -5,7 +5,7 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
-#include "tests/tracking/synthetic_tag.hpp"
+#include "tests/support/synthetic_tag.hpp"
 
 namespace catchlight::tracking {
 namespace {

@@ -1,8 +1,8 @@
 // Each way in which tag tracking is known to fail, by name. Stress rises over a few frames, as it does in footage.
 #include <gtest/gtest.h>
 
-#include "tests/tracking/pose_error.hpp"
-#include "tests/tracking/synthetic_tag.hpp"
+#include "tests/support/pose_error.hpp"
+#include "tests/support/synthetic_tag.hpp"
 #include "tracking/tracker.hpp"
 
 namespace catchlight::tracking {

@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/tracking/pose_error.hpp"
-#include "tests/tracking/synthetic_tag.hpp"
+#include "tests/support/pose_error.hpp"
+#include "tests/support/synthetic_tag.hpp"
 
 namespace catchlight::tracking {
 namespace {

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
-#include "tests/tracking/synthetic_tag.hpp"
+#include "tests/support/synthetic_tag.hpp"
 #include "tracking/tracker.hpp"
 
 namespace catchlight::tracking {

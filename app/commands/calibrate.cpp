@@ -1,0 +1,157 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <opencv2/imgcodecs.hpp>
+
+#include "app/commands/commands.hpp"
+#include "app/support/output_file.hpp"
+#include "app/support/text.hpp"
+#include "app/tools/calibration/collect.hpp"
+#include "app/tools/calibration/report.hpp"
+
+namespace catchlight::app {
+namespace {
+
+struct Options {
+  std::string footage, output, picture, checkerboard, tags, frames, model = "standard";
+  TagGrid grid;
+  double square_m = 0;
+  bool overwrite = false;
+};
+
+/// Which of the options that have no default were given.
+struct Given {
+  bool square = false, size = false, spacing = false;
+};
+
+std::unique_ptr<CalibrationBoard> checkerboard_of(const Options& options, const Given& given) {
+  const glm::ivec2 corners = columns_and_rows(options.checkerboard, "--checkerboard");
+  if (std::min(corners.x, corners.y) < 3)
+    throw UsageError("--checkerboard is " + options.checkerboard +
+                     "; expected the corners where four squares meet, at least 3x3 (a board of 10x7 squares is 9x6)");
+  if (!given.square) throw UsageError("--checkerboard needs --square-m, the side of a square in metres");
+  check_length(options.square_m, "--square-m");
+  return make_checkerboard(corners, options.square_m);
+}
+
+std::unique_ptr<CalibrationBoard> tag_board_of(const Options& options, const Given& given) {
+  TagGrid grid = options.grid;
+  const glm::ivec2 shape = columns_and_rows(options.tags, "--tags");
+  grid.columns = shape.x;
+  grid.rows = shape.y;
+  constexpr int kFewestTags = 4;
+  if (grid.count() < kFewestTags)
+    throw UsageError("--tags is " + options.tags +
+                     ", too few for a calibration; print a board with `catchlight tag --board 4x3`");
+  if (!given.size) throw UsageError("--tags needs --size-m, the side of the square that detectors return, in metres");
+  if (!given.spacing) throw UsageError("--tags needs --spacing-m, the distance between the tags' centres in metres");
+  check_tag_grid(grid);
+  return make_tag_board(grid);
+}
+
+std::unique_ptr<CalibrationBoard> board_of(const Options& options, const Given& given) {
+  if (options.checkerboard.empty() == options.tags.empty())
+    throw UsageError(
+        "say which board is in the footage: --checkerboard 9x6 --square-m 0.025, or --tags 4x3 --size-m 0.04 --spacing-m 0.05");
+  return options.tags.empty() ? checkerboard_of(options, given) : tag_board_of(options, given);
+}
+
+LensModel lens_model(const std::string& name) {
+  return name == "plain" ? LensModel::plain : name == "rational" ? LensModel::rational : LensModel::standard;
+}
+
+std::string numbers_text(const std::vector<std::int64_t>& numbers) {
+  std::string text;
+  for (const std::int64_t number : numbers) text += (text.empty() ? "" : ", ") + std::to_string(number);
+  return text;
+}
+
+CollectedViews views_in(const Options& options, CalibrationBoard& board, Log& log) {
+  const FrameRange range = options.frames.empty() ? FrameRange{} : parse_frame_range(options.frames);
+  const std::unique_ptr<MediaSource> source = MediaSource::open(options.footage);
+  if (source->info().is_live && range.end == FrameRange{}.end)
+    throw UsageError(options.footage + ": has no end; say how many frames to look at, such as --frames 0:900");
+  CollectedViews views = collect_views(*source, board, range, log);
+  if (views.damage) log.warn(*views.damage + "; calibrating with what was read before");
+  if (views.frames_with_board == 0)
+    throw Error(options.footage + ": the board was found in none of " + std::to_string(views.frames_tried) +
+                " frames; is it described as it is (" +
+                (options.tags.empty() ? "inner corners, not squares; all of them in the picture, with white around"
+                                      : "family, ids, columns and rows; four tags or more in the picture") +
+                "), sharp and evenly lit?");
+  log.info("board seen in " + std::to_string(views.frames_with_board) + " of " + std::to_string(views.frames_tried) +
+           " frames tried, of " + std::to_string(views.frames_read));
+  if (!views.blurred.empty()) log.info("left out as blurred: frame " + numbers_text(views.blurred));
+  return views;
+}
+
+std::vector<BoardView> board_views(const CollectedViews& collected) {
+  std::vector<BoardView> views;
+  for (const SeenBoard& board : collected.boards) views.push_back(board.view);
+  return views;
+}
+
+/// The same frames measured again, through the lens that their first measures gave.
+std::vector<BoardView> measured_again(const CollectedViews& collected, CalibrationBoard& board, const CameraModel& lens) {
+  std::vector<BoardView> views;
+  for (const SeenBoard& seen : collected.boards)
+    if (auto view = board.find(seen.frame.luma(), lens)) {
+      view->frame = seen.view.frame;
+      views.push_back(std::move(*view));
+    }
+  return views;
+}
+
+void write_picture(const std::string& path, const Calibration& calibration, bool overwrite) {
+  std::vector<std::uint8_t> png;
+  cv::imencode(".png", calibration_picture(calibration), png);
+  write_text_file(path, {reinterpret_cast<const char*>(png.data()), png.size()}, overwrite);
+}
+
+void calibrate(const Options& options, const Given& given, Log& log) {
+  check_output_path(options.output, options.overwrite);
+  if (!options.picture.empty()) check_output_path(options.picture, options.overwrite);
+  if (!options.picture.empty() && !options.picture.ends_with(".png"))
+    throw UsageError(options.picture + ": expected a name that ends in .png");
+  const std::unique_ptr<CalibrationBoard> board = board_of(options, given);
+  const LensModel most = lens_model(options.model);
+  const CollectedViews collected = views_in(options, *board, log);
+  Calibration calibration = solve_camera(board_views(collected), collected.width_px, collected.height_px, most);
+  if (board->needs_lens())
+    calibration =
+        solve_camera(measured_again(collected, *board, calibration.camera), collected.width_px, collected.height_px, most);
+
+  write_text_file(options.output, camera_yaml(calibration), options.overwrite);
+  if (!options.picture.empty()) write_picture(options.picture, calibration, options.overwrite);
+  std::fputs(calibration_text(calibration).c_str(), stdout);
+  for (const std::string& hint : calibration_hints(calibration, most)) log.warn(hint);
+}
+
+}  // namespace
+
+void set_up_calibrate(CLI::App& command, Context& context) {
+  const auto options = std::make_shared<Options>();
+  command.footer("docs/calibration.md says how to film the board.");
+  command.add_option("FOOTAGE", options->footage, "a video or a %04d pattern that shows the board from many sides")->required();
+  command.add_option("-o,--output", options->output, "camera file, YAML")->required();
+  command.add_option("--checkerboard", options->checkerboard, "COLUMNSxROWS of corners where four squares meet");
+  CLI::Option* square = command.add_option("--square-m", options->square_m, "side of a square of the checkerboard, metres");
+  command.add_option("--tags", options->tags, "COLUMNSxROWS of tags, ids row by row from the top left, as `tag --board` prints");
+  command.add_option("--family", options->grid.family, "tag family")->capture_default_str();
+  CLI::Option* size = command.add_option("--size-m", options->grid.size_m, "side of the square that detectors return, metres");
+  CLI::Option* spacing = command.add_option("--spacing-m", options->grid.spacing_m, "from centre to centre of the tags, metres");
+  command.add_option("--first-id", options->grid.first_id, "the tag at the top left")->capture_default_str();
+  command
+      .add_option("--model", options->model, "at most: plain (no distortion), standard (k1 k2 p1 p2 k3), rational (and k4 k5 k6)")
+      ->check(CLI::IsMember({"plain", "standard", "rational"}))
+      ->capture_default_str();
+  command.add_option("--frames", options->frames,
+                     "only frames A:B, numbered from 0 (image sequences: by their own numbers), B left out");
+  command.add_option("--picture", options->picture, "draw where the board was and how far off each corner is, PNG");
+  command.add_flag("-y,--overwrite", options->overwrite, "replace existing outputs");
+  command.callback([=, &context] {
+    calibrate(*options, {square->count() > 0, size->count() > 0, spacing->count() > 0}, context.log);
+  });
+}
+
+}  // namespace catchlight::app

@@ -1,0 +1,116 @@
+#include <CLI/CLI.hpp>
+#include <vector>
+
+#include "app/commands/commands.hpp"
+#include "app/settings/parameters.hpp"
+#include "app/support/text.hpp"
+
+namespace catchlight::app {
+namespace {
+
+constexpr const char* kDescription =
+    "Puts synthetic objects into real footage: tracks AprilTags, lights the object with a light probe of the place,\n"
+    "and composites it at the camera's own exposure.";
+constexpr const char* kFooter =
+    "`catchlight COMMAND --help` explains a command; `catchlight params` lists what a scene file can say.\n"
+    "-q anywhere silences all but errors.";
+
+enum ExitCode { kSuccess = 0, kFailure = 1, kUsage = 2 };
+
+/// The innermost subcommand that the arguments reached.
+const CLI::App& active_command(const CLI::App& app) {
+  const std::vector<CLI::App*> chosen = app.get_subcommands();
+  return chosen.empty() ? app : active_command(*chosen.back());
+}
+
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names{"--quiet"};
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(command->get_name());
+  return names;
+}
+
+/// What stands where nothing was expected: a mistyped option, a mistyped command, or one argument too many. There is one.
+std::string unexpected_argument(const CLI::App& app) {
+  const CLI::App& command = active_command(app);
+  const std::vector<std::string> extras = app.remaining(true);
+  const std::string& argument = extras.front();
+  const std::string name = argument.substr(0, argument.find('='));
+  if (name.starts_with("--")) return "unknown option " + name + "; did you mean " + nearest(name, option_names(command)) + "?";
+  const std::vector<std::string> subcommands = command_names(command);
+  if (!name.starts_with("-") && !subcommands.empty())
+    return "unknown command '" + name + "'; did you mean '" + nearest(name, subcommands) + "'?";
+  return "unexpected argument '" + argument + "'";
+}
+
+int report_parse_error(const CLI::App& app, const CLI::ParseError& error, Log& log) {
+  if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+  // What is left over comes first: a mistyped command or option is often why something else is missing.
+  const std::string message = app.remaining(true).empty() ? std::string(error.what()) : unexpected_argument(app);
+  std::string command = "catchlight";
+  for (const CLI::App* chosen = &app; !chosen->get_subcommands().empty();) {
+    chosen = chosen->get_subcommands().back();
+    command += ' ' + chosen->get_name();
+  }
+  log.error(message + "\n`" + command + " --help` shows what can be given.");
+  return kUsage;
+}
+
+}  // namespace
+
+void add_recording_options(CLI::App& command, std::string& location, RecordingOverrides& overrides) {
+  command
+      .add_option("RECORDING", location,
+                  "Folder with footage, camera.yaml and scene.toml; or a video, a %04d pattern, a camera, a stream")
+      ->required();
+  command.add_option("--scene", overrides.scene_file, "Scene file, instead of the recording's scene.toml")->type_name("FILE");
+  command.add_option("--camera", overrides.camera_file, "Camera file, instead of the recording's camera.yaml")->type_name("FILE");
+  command.add_option("--fov", overrides.fov_deg, "Horizontal field of view of a camera that is not calibrated")
+      ->type_name("DEGREES");
+  command.add_flag("--strict", overrides.strict,
+                   "Refuse a probe with NaN, infinite or negative texels instead of taking them for 0");
+  for (const Parameter& parameter : parameters()) {
+    const auto note = [&overrides, key = parameter.key](const std::string& text) {
+      overrides.parameters.emplace_back(key, text);
+    };
+    command.add_option_function<std::string>("--" + parameter.key, note, parameter.help)
+        ->type_name(parameter.unit.empty() ? "VALUE" : parameter.unit)
+        ->group("Parameters of the scene (before what the scene file says)");
+  }
+}
+
+int run_command_line(std::span<const Command> commands, int argc, const char* const* argv) {
+  Context context;
+  CLI::App app{kDescription, "catchlight"};
+  app.footer(kFooter);
+  app.set_version_flag("--version", "catchlight " CATCHLIGHT_VERSION);
+  app.require_subcommand(1);
+  app.add_flag_callback(
+         "-q,--quiet", [&] { context.log.set_quiet(true); }, "Print nothing but errors")
+      ->trigger_on_parse();
+  for (const Command& command : commands) {
+    CLI::App& subcommand = *app.add_subcommand(command.name, command.help);
+    subcommand.fallthrough();
+    command.set_up(subcommand, context);
+  }
+  try {
+    app.parse(argc, argv);
+    return context.exit_code;
+  } catch (const CLI::ParseError& error) {
+    return report_parse_error(app, error, context.log);
+  } catch (const UsageError& error) {
+    context.log.error(error.what());
+    return kUsage;
+  } catch (const std::exception& error) {
+    context.log.error(error.what());
+    return kFailure;
+  }
+}
+
+}  // namespace catchlight::app

@@ -1,0 +1,47 @@
+// What a subcommand is, and those there are; main.cpp has the table.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "app/session/recording.hpp"
+#include "app/support/log.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace catchlight::app {
+
+/// What commands share; lives as long as the program.
+struct Context {
+  Log log;
+  int exit_code = 0;  ///< for a command that ran to its end and still has to report failure
+};
+
+struct Command {
+  const char* name;
+  const char* help;
+  void (*set_up)(CLI::App& command, Context& context);  ///< adds options and the callback that runs it
+};
+
+void set_up_bake(CLI::App& command, Context& context);
+void set_up_calibrate(CLI::App& command, Context& context);
+void set_up_glare(CLI::App& command, Context& context);
+void set_up_info(CLI::App& command, Context& context);
+void set_up_overlay(CLI::App& command, Context& context);
+void set_up_params(CLI::App& command, Context& context);
+void set_up_probe(CLI::App& command, Context& context);
+void set_up_reference(CLI::App& command, Context& context);
+void set_up_replay(CLI::App& command, Context& context);
+void set_up_tag(CLI::App& command, Context& context);
+void set_up_track(CLI::App& command, Context& context);
+
+/// The positional RECORDING, --scene, --camera, --fov, and one option for every parameter. Both must live as long as `command`.
+void add_recording_options(CLI::App& command, std::string& location, RecordingOverrides& overrides);
+
+/// Runs the command that the arguments name. Exit code 0, 2 for a command line that cannot be carried out, 1 for anything else;
+/// an error is one message on stderr.
+int run_command_line(std::span<const Command> commands, int argc, const char* const* argv);
+
+}  // namespace catchlight::app

@@ -1,0 +1,287 @@
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <glm/gtc/constants.hpp>
+#include <memory>
+#include <opencv2/imgcodecs.hpp>
+#include <optional>
+
+#include "app/commands/probe.hpp"
+#include "app/settings/scene_settings.hpp"
+#include "app/support/output_file.hpp"
+#include "app/support/text.hpp"
+#include "app/tools/probe_view/probe_preview.hpp"
+#include "app/tools/probe_view/probe_statistics.hpp"
+#include "render/probe/probe_split.hpp"
+
+namespace catchlight::app {
+namespace {
+
+struct ProbeArguments {
+  std::string input, layout_in, output, layout_out = "latlong";
+  bool strict = false, overwrite = false;
+  int width_px = 0, size_px = 256, preview_px = 1200, bands = 3;
+  double ev = 0, yaw_deg = 0;
+  std::string lights, rest;
+  SceneSettings::Quality quality;  // the split's defaults
+};
+
+render::Probe load(const ProbeArguments& arguments, Log& log) {
+  render::ProbeLoadOptions options;
+  if (!arguments.layout_in.empty()) options.layout = render::probe_layout_from_name(arguments.layout_in);
+  options.strict = arguments.strict;
+  return render::load_probe(arguments.input, options, log.warning_handler());
+}
+
+std::string shown(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+std::string shown(const glm::dvec3& v) {
+  return shown(v.x) + ' ' + shown(v.y) + ' ' + shown(v.z);
+}
+
+void print(const char* name, const std::string& value) {
+  std::printf("%-20s %s\n", name, value.c_str());
+}
+
+/// As ImfEnvmap.h counts them: longitude 0 is +z, +90 degrees is +x.
+std::string direction_text(const glm::dvec3& d) {
+  return shown(d) + " (latitude " + shown(glm::degrees(std::asin(glm::clamp(d.y, -1.0, 1.0)))) + ", longitude " +
+         shown(glm::degrees(std::atan2(d.x, d.z))) + " deg)";
+}
+
+void print_info(const ProbeArguments& arguments, Log& log) {
+  const render::Probe probe = load(arguments, log);
+  const ProbeStatistics statistics = measure_probe(probe, arguments.bands);
+  print("size", std::to_string(probe.image.width) + "x" + std::to_string(probe.image.height));
+  print("layout", render::name_of(probe.layout));
+  print("luminance", "max " + shown(statistics.max) + ", min above 0 " + shown(statistics.min_lit) + ", mean " +
+                         shown(statistics.mean) + ", log-average " + shown(statistics.log_average));
+  print("range", shown(statistics.range_ev) + " EV");
+  print("brightest towards", statistics.max > 0 ? direction_text(statistics.brightest) : "nowhere: the probe is black");
+  print("irradiance up", shown(statistics.irradiance_up));
+  print("irradiance down", shown(statistics.irradiance_down));
+  double held = 0;
+  for (std::size_t l = 0; l < statistics.band_energy.size(); ++l) {
+    held += statistics.band_energy[l];
+    const double share = statistics.energy > 0 ? 100 * held / statistics.energy : 0;
+    std::printf("SH band %zu            energy %s, %s %% of all held so far\n", l, shown(statistics.band_energy[l]).c_str(),
+                shown(share).c_str());
+  }
+}
+
+void print_lights(const render::SplitProbe& split) {
+  print("lights", std::to_string(split.lights.size()));
+  if (split.lights.empty()) return;
+  print("rest", "at most " + shown(split.threshold) + " where a light was");
+  for (std::size_t i = 0; i < split.lights.size(); ++i) {
+    const render::ProbeLight& light = split.lights[i];
+    print(("light " + std::to_string(i)).c_str(), "from " + direction_text(light.direction));
+    print("  solid angle", shown(light.solid_angle_sr) + " sr");
+    print("  irradiance", shown(light.irradiance));
+    print("  share", shown(100 * light.share) + " % of the light on an average surface");
+    print("  samples", std::to_string(light.samples.size()));
+  }
+}
+
+void check_part(const std::string& path) {
+  if (!path.empty() && !path.ends_with(".exr"))
+    throw UsageError(path + ": the parts of a probe need float; give a name that ends in .exr");
+}
+
+/// None where nothing is to be written.
+std::optional<PendingFile> pending_part(const std::string& path, bool overwrite) {
+  return path.empty() ? std::nullopt : std::optional<PendingFile>(std::in_place, path, overwrite);
+}
+
+/// What the rest leaves of the probe.
+render::Probe lights_of(const render::Probe& probe, const render::Probe& rest) {
+  render::Probe lights = probe;
+  for (std::size_t i = 0; i < lights.image.data.size(); ++i) lights.image.data[i] -= rest.image.data[i];
+  return lights;
+}
+
+void split(const ProbeArguments& arguments, Log& log) {
+  check_part(arguments.lights);
+  check_part(arguments.rest);
+  if (!arguments.lights.empty() && arguments.lights == arguments.rest)
+    throw UsageError(arguments.rest + ": --lights and --rest need two different files");
+  std::optional<PendingFile> lights = pending_part(arguments.lights, arguments.overwrite);
+  std::optional<PendingFile> rest = pending_part(arguments.rest, arguments.overwrite);
+  const render::Probe probe = load(arguments, log);
+  const SceneSettings::Quality& quality = arguments.quality;
+  const render::SplitProbe parts = render::split_lights(probe, {quality.bands, quality.tolerance, quality.light_samples});
+  if (lights) render::save_probe(lights->pending_path(), lights_of(probe, parts.rest), render::ExrPrecision::full);
+  if (rest) render::save_probe(rest->pending_path(), parts.rest, render::ExrPrecision::full);
+  if (lights) lights->commit();
+  if (rest) rest->commit();
+  print_lights(parts);
+}
+
+void convert(const ProbeArguments& arguments, Log& log) {
+  const render::ProbeLayout layout = render::probe_layout_from_name(arguments.layout_out);
+  if (!arguments.output.ends_with(".exr") && !arguments.output.ends_with(".hdr"))
+    throw UsageError(arguments.output + ": expected a name that ends in .exr or .hdr");
+  PendingFile output(arguments.output, arguments.overwrite);
+  render::save_probe(output.pending_path(), render::convert(load(arguments, log), layout, arguments.width_px));
+  output.commit();
+}
+
+std::string sh_text(const ProbeArguments& arguments, const render::ShRgb& coefficients) {
+  std::string text =
+      "# Spherical harmonics of " + arguments.input + ", " + std::to_string(arguments.bands) +
+      " bands, by Catchlight " CATCHLIGHT_VERSION
+      ".\n"
+      "# Scene-linear radiance, Rec. 709, in the probe frame (+y up; a latlong's middle column is +z, +x is left of it).\n"
+      "# Real, orthonormal over the sphere, index l(l+1)+m, without the Condon-Shortley phase:\n"
+      "# y(0,0) = 0.282095, y(1,-1) = 0.488603 y, y(1,0) = 0.488603 z, y(1,1) = 0.488603 x.\n"
+      "# l m red green blue\n";
+  for (int l = 0; l < arguments.bands; ++l)
+    for (int m = -l; m <= l; ++m) {
+      const glm::vec3& c = coefficients[static_cast<std::size_t>(render::sh_index(l, m))];
+      char line[128];
+      std::snprintf(line, sizeof line, "%d %d %.9g %.9g %.9g\n", l, m, c.r, c.g, c.b);
+      text += line;
+    }
+  return text;
+}
+
+void write_sh(const ProbeArguments& arguments, Log& log) {
+  if (!arguments.output.empty()) check_output_path(arguments.output, arguments.overwrite);
+  const std::string text = sh_text(arguments, render::project_to_sh(load(arguments, log), arguments.bands));
+  if (arguments.output.empty())
+    std::fputs(text.c_str(), stdout);
+  else
+    write_text_file(arguments.output, text, arguments.overwrite);
+}
+
+/// PNG keeps colour apart from coverage: straight alpha, sRGB, blue first as OpenCV has it.
+cv::Mat png_pixels(const render::Image& linear_premultiplied, double ev) {
+  cv::Mat pixels(linear_premultiplied.height, linear_premultiplied.width, CV_8UC4);
+  for (int y = 0; y < pixels.rows; ++y)
+    for (int x = 0; x < pixels.cols; ++x) {
+      const float* rgba = linear_premultiplied.pixel(x, y);
+      cv::Vec4b& out = pixels.at<cv::Vec4b>(y, x);
+      for (int c = 0; c < 3; ++c) {
+        const double straight = rgba[3] > 0 ? rgba[c] / rgba[3] * std::exp2(ev) : 0;
+        out[2 - c] = static_cast<unsigned char>(std::lround(255 * srgb_from_linear(glm::clamp(straight, 0.0, 1.0))));
+      }
+      out[3] = static_cast<unsigned char>(std::lround(255 * rgba[3]));
+    }
+  return pixels;
+}
+
+void write_png(const ProbeArguments& arguments, const cv::Mat& pixels) {
+  std::vector<std::uint8_t> png;
+  cv::imencode(".png", pixels, png);
+  write_text_file(arguments.output, {reinterpret_cast<const char*>(png.data()), png.size()}, arguments.overwrite);
+}
+
+void check_png_output(const ProbeArguments& arguments) {
+  if (!arguments.output.ends_with(".png"))
+    throw UsageError(arguments.output + ": the preview is a PNG; give -o a name that ends in .png");
+  check_output_path(arguments.output, arguments.overwrite);
+}
+
+void write_ball(const ProbeArguments& arguments, Log& log) {
+  check_png_output(arguments);
+  write_png(arguments, png_pixels(mirror_ball_preview(load(arguments, log), arguments.yaw_deg, arguments.size_px), arguments.ev));
+}
+
+void write_preview(const ProbeArguments& arguments, Log& log) {
+  check_png_output(arguments);
+  write_png(arguments, probe_preview(load(arguments, log), arguments.yaw_deg, arguments.ev, arguments.preview_px));
+}
+
+using Run = void (*)(const ProbeArguments&, Log&);
+
+/// A subcommand with the options that reading a probe needs.
+CLI::App& add_probe_command(CLI::App& parent, const char* name, const char* help,
+                            const std::shared_ptr<ProbeArguments>& arguments, Run run, Context& context) {
+  CLI::App& command = *parent.add_subcommand(name, help);
+  command.fallthrough();
+  command.add_option("FILE", arguments->input, "OpenEXR or Radiance HDR")->required();
+  command.add_option("--layout-in", arguments->layout_in,
+                     "Layout of FILE, where it does not say: latlong, angular, mirror-ball, cube-cross, cube");
+  command.add_flag("--strict", arguments->strict, "Refuse NaN, infinite and negative texels instead of taking them as 0");
+  command.callback([arguments, run, &context] { run(*arguments, context.log); });
+  return command;
+}
+
+void add_overwrite(CLI::App& command, ProbeArguments& arguments) {
+  command.add_flag("-y,--overwrite", arguments.overwrite, "Overwrite the output where it exists");
+}
+
+void add_bands(CLI::App& command, int& bands) {
+  command.add_option("--bands", bands, "Bands of spherical harmonics (n bands have n^2 coefficients)")
+      ->check(CLI::Range(1, render::kMaxShBands))
+      ->capture_default_str();
+}
+
+void add_split(CLI::App& command, const std::shared_ptr<ProbeArguments>& arguments, Context& context) {
+  SceneSettings::Quality& quality = arguments->quality;
+  CLI::App& parts = add_probe_command(command, "split", "The lights that are split off, and the rest", arguments, split, context);
+  parts.footer(
+      "Options as quality.bands, quality.tolerance and quality.light_samples of the scene file. docs/light.md explains them.");
+  add_bands(parts, quality.bands);
+  parts.add_option("--tolerance", quality.tolerance, "Visible error allowed, as a share of white")
+      ->check(CLI::Range(0.0001, 0.5))
+      ->capture_default_str();
+  parts.add_option("--samples", quality.light_samples, "Of all lights together, at most; 0: no lights")
+      ->check(CLI::Range(0, render::kMaxLightSamples))
+      ->capture_default_str();
+  parts.add_option("--lights", arguments->lights, "Writes the lights alone: an OpenEXR file of the probe's layout, in float");
+  parts.add_option("--rest", arguments->rest, "Writes what is left; both add up to the probe");
+  add_overwrite(parts, *arguments);
+}
+
+}  // namespace
+
+void set_up_probe(CLI::App& command, Context& context) {
+  command.require_subcommand(1);
+  const auto arguments = std::make_shared<ProbeArguments>();
+  add_probe_merge(command, context);
+
+  CLI::App& info = add_probe_command(command, "info", "Size, range, where the light comes from", arguments, print_info, context);
+  add_bands(info, arguments->bands);
+
+  add_split(command, arguments, context);
+
+  CLI::App& converted = add_probe_command(command, "convert", "The same light in another layout", arguments, convert, context);
+  converted.add_option("OUT", arguments->output, "OpenEXR or Radiance HDR, by extension")->required();
+  converted.add_option("--layout", arguments->layout_out, "latlong, angular, mirror-ball, cube-cross or cube")->required();
+  converted.add_option("--width", arguments->width_px, "Width of OUT in texels; 0 keeps the angular resolution")
+      ->check(CLI::Range(0, 16384));
+  add_overwrite(converted, *arguments);
+
+  CLI::App& sh = add_probe_command(command, "sh", "Coefficients of spherical harmonics as text", arguments, write_sh, context);
+  add_bands(sh, arguments->bands);
+  sh.add_option("-o,--output", arguments->output, "Text file; stdout where left out");
+  add_overwrite(sh, *arguments);
+
+  CLI::App& ball =
+      add_probe_command(command, "ball", "Preview: a mirror ball on the tag in this light", arguments, write_ball, context);
+  ball.footer(
+      "The camera stands in front of the tag (at tag -y) and looks at it horizontally: right is tag +x, up is tag +z, and the "
+      "middle of\n"
+      "the ball mirrors the camera. What stood behind the camera in the real place has to be seen in the middle.");
+  ball.add_option("-o,--output", arguments->output, "PNG file")->required();
+  ball.add_option("--size", arguments->size_px, "Width and height in pixels")->check(CLI::Range(8, 8192))->capture_default_str();
+  ball.add_option("--ev", arguments->ev, "Exposure")->check(CLI::Range(-30.0, 30.0))->capture_default_str();
+  ball.add_option("--yaw", arguments->yaw_deg, "As probe.yaw_deg of the scene file")->check(CLI::Range(-360.0, 360.0));
+  add_overwrite(ball, *arguments);
+
+  CLI::App& preview =
+      add_probe_command(command, "preview", "Shows which way round: panorama, balls, plan", arguments, write_preview, context);
+  preview.footer("For a tag flat on a table. docs/probes.md says how to read it.");
+  preview.add_option("-o,--output", arguments->output, "PNG file")->required();
+  preview.add_option("--size", arguments->preview_px, "Width in pixels")->check(CLI::Range(300, 8192))->capture_default_str();
+  preview.add_option("--ev", arguments->ev, "Brighter or darker")->check(CLI::Range(-30.0, 30.0))->capture_default_str();
+  preview.add_option("--yaw", arguments->yaw_deg, "As probe.yaw_deg of the scene file")->check(CLI::Range(-360.0, 360.0));
+  add_overwrite(preview, *arguments);
+}
+
+}  // namespace catchlight::app

@@ -1,0 +1,86 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "app/commands/commands.hpp"
+#include "app/tools/replay/replay.hpp"
+
+namespace catchlight::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Options {
+  std::string location, sheets = "out/replay";
+  RecordingOverrides overrides;
+  bool bless = false;
+};
+
+void print_header() {
+  std::printf("%-10s %8s %15s %7s %7s | %-25s | %-25s | %-25s | %s\n", "recording", "tracked", "corner px", "mm", "deg",
+              "mask mean p95 PSNR SSIM", "shadow", "elsewhere", "verdict");
+}
+
+/// Dashes where the recording has no truth to look at.
+void print_pictures(const std::optional<TruthComparison>& pictures, PictureError TruthComparison::*region) {
+  if (!pictures) {
+    std::printf(" | %5s %5s %5s %6s ", "-", "-", "-", "-");
+    return;
+  }
+  const PictureError& error = (*pictures).*region;
+  std::printf(" | %5.2f %5.2f %5.1f %6.4f ", error.mean, error.p95, error.psnr_db, error.ssim);
+}
+
+void print_row(const ReplayResult& result, const char* verdict) {
+  const PoseComparison pose = result.pose.value_or(PoseComparison{});
+  std::printf("%-10s %4d/%-3d %7.3f %7.3f %7.3f %7.3f", result.name.c_str(), pose.tracked, pose.frames, pose.corner_rms_px,
+              pose.corner_p95_px, pose.translation_median_mm, pose.rotation_median_deg);
+  for (const auto region : {&TruthComparison::mask, &TruthComparison::shadow, &TruthComparison::elsewhere})
+    print_pictures(result.pictures, region);
+  std::printf(" | %s\n", verdict);
+}
+
+/// The lines that say what drifted; empty where nothing did or it was blessed.
+std::vector<std::string> check(const ReplayResult& result, const std::string& expected_path, bool bless) {
+  if (bless) {
+    write_expected(expected_path, result.figures);
+    return {};
+  }
+  if (!fs::exists(expected_path)) return {expected_path + " is missing; look at the sheet, then run with --bless"};
+  return drift(result.figures, read_expected(expected_path));
+}
+
+void replay(const Options& options, Context& context) {
+  std::vector<std::string> drifted;
+  std::vector<std::pair<ReplayResult, const char*>> rows;
+  for (const std::string& folder : find_recordings(options.location)) {
+    const std::string name = fs::path(folder).filename().string();
+    const std::string sheet_path = (fs::path(options.sheets) / (name + ".png")).string();
+    const ReplayResult result = replay_recording(folder, options.overrides, sheet_path, context.log);
+    const std::vector<std::string> lines = check(result, (fs::path(folder) / "expected.toml").string(), options.bless);
+    for (const std::string& line : lines) drifted.push_back(name + ": " + line);
+    rows.emplace_back(result, options.bless ? "blessed" : lines.empty() ? "as expected" : "DRIFTED");
+  }
+  print_header();
+  for (const auto& [result, verdict] : rows) print_row(result, verdict);
+  std::printf("Errors of 255 against the truth; sheets plate | ours | truth | difference x 8 in %s\n", options.sheets.c_str());
+  if (drifted.empty()) return;
+  for (const std::string& line : drifted) context.log.error(line);
+  context.log.error("if the sheets in " + options.sheets + " show that this is right, run: catchlight replay " +
+                    options.location + " --bless");
+  context.exit_code = 1;
+}
+
+}  // namespace
+
+void set_up_replay(CLI::App& command, Context& context) {
+  const auto options = std::make_shared<Options>();
+  add_recording_options(command, options->location, options->overrides);
+  command.add_option("-o,--output", options->sheets, "folder for the sheets")->capture_default_str();
+  command.add_flag("--bless", options->bless, "write what is measured to each recording's expected.toml");
+  command.callback([options, &context] { replay(*options, context); });
+}
+
+}  // namespace catchlight::app

@@ -1,0 +1,33 @@
+// What a frame's colour tags mean in numbers. Private to app/media.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "app/media/pixels/pixel_layout.hpp"
+#include "render/compositor.hpp"
+
+namespace catchlight::app {
+
+/// The transfer function and primaries that the tags declare; see Frame::color().
+render::PlateColor plate_color(const AVFrame& picture);
+
+/// Tagged full range, or a format that is full range where nothing is said (RGB, grey).
+bool is_full_range(const AVFrame& picture, const PixelLayout& layout);
+
+/// RGB codes (0..1) to the format's integer codes: Y Cb Cr, R G B, or Y alone. ITU-R BT.601, BT.709, BT.2020 (non-constant
+/// luminance), H.273.
+class CodeFromRgb {
+ public:
+  CodeFromRgb(const AVFrame& picture, const PixelLayout& layout);
+
+  /// Unrounded codes; unclamped.
+  glm::dvec3 operator()(const glm::dvec3& rgb) const { return matrix_ * rgb + offset_; }
+  double max_code() const { return max_code_; }
+
+ private:
+  glm::dmat3 matrix_{0.0};
+  glm::dvec3 offset_{0.0};
+  double max_code_;
+};
+
+}  // namespace catchlight::app

@@ -1,0 +1,66 @@
+#include "app/media/read/source.hpp"
+
+#include <filesystem>
+
+#include "app/media/read/sequence.hpp"
+#include "app/media/read/video_source.hpp"
+
+namespace catchlight::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+SourceRequest sequence_request(const std::string& location, const SequencePattern& pattern, double fps) {
+  const std::vector<std::int64_t> numbers = pattern.existing();
+  if (numbers.empty()) throw Error("no file matches '" + location + "' (the first could be '" + pattern.file(1).string() + "')");
+  for (std::size_t i = 1; i < numbers.size(); ++i) {
+    const std::int64_t wanted = numbers[i - 1] + 1;
+    if (numbers[i] == wanted) continue;
+    throw Error("'" + location + "' has a gap: number " + std::to_string(wanted) + " ('" + pattern.file(wanted).string() +
+                "') is missing between " + std::to_string(numbers.front()) + " and " + std::to_string(numbers.back()));
+  }
+  if (fps <= 0) throw UsageError("the frame rate of '" + location + "' must be above 0");
+  SourceRequest request{location, "file:" + location, "image2", {}, {}, {}};
+  request.options = {
+      {"pattern_type", "sequence"}, {"start_number", std::to_string(numbers.front())}, {"framerate", std::to_string(fps)}};
+  request.info.is_sequence = true;
+  request.info.first_number = numbers.front();
+  request.info.frame_count = static_cast<std::int64_t>(numbers.size());
+  return request;
+}
+
+SourceRequest file_request(const std::string& location) {
+  if (!fs::exists(location)) throw Error("no such file: '" + location + "'");
+  if (fs::is_directory(location)) {
+    throw Error("'" + location + "' is a folder; name a video in it, or its pictures as in '" + location + "/%04d.png'");
+  }
+  // With the protocol named, a colon in a file's name stays part of the name.
+  return {location, "file:" + location, "", {}, {}, {}};
+}
+
+SourceRequest live_request(const std::string& location, const std::string& input_format) {
+  SourceRequest request{location, location, input_format, {}, {}, {}};
+  request.info.is_live = true;
+  return request;
+}
+
+SourceRequest request_of(const std::string& location, double sequence_fps) {
+  if (location.find("://") != std::string::npos) return live_request(location, "");
+  if (location.starts_with("/dev/video")) return live_request(location, "v4l2");
+  const auto pattern = SequencePattern::parse(location);
+  return pattern && !fs::exists(location) ? sequence_request(location, *pattern, sequence_fps) : file_request(location);
+}
+
+}  // namespace
+
+std::unique_ptr<MediaSource> MediaSource::open(const std::string& location, double sequence_fps,
+                                               std::shared_ptr<const CameraResponse> response) {
+  capture_ffmpeg_log();
+  if (location.empty())
+    throw UsageError("no footage named: a file, a pattern such as 'plate/%04d.png', a camera or an address is wanted");
+  SourceRequest request = request_of(location, sequence_fps);
+  request.response = std::move(response);
+  return std::make_unique<VideoSource>(std::move(request));
+}
+
+}  // namespace catchlight::app

@@ -1,0 +1,54 @@
+// Footage in: videos, numbered image sequences, cameras and streams, through FFmpeg's libraries.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/media/pixels/frame.hpp"
+#include "catchlight.hpp"
+
+struct AVStream;
+
+namespace catchlight::app {
+
+struct SourceInfo {
+  int width_px = 0, height_px = 0;          ///< display orientation
+  std::optional<std::int64_t> frame_count;  ///< where the container or the folder says
+  std::int64_t first_number = 0;            ///< number of the first frame
+  double frame_rate = 0;                    ///< average
+  bool is_sequence = false;
+  bool is_live = false;  ///< camera or stream
+  std::string codec, pixel_format;
+};
+
+/// The footage broke off or is damaged; frames before the damage were delivered.
+struct DamagedMedia : Error {
+  using Error::Error;
+};
+
+/// Decodes strictly in order; never seeks.
+class MediaSource {
+ public:
+  /// `location`: a file, a `%04d` pattern (from any number), `/dev/video0`, or an address (`rtsp://`, `http://`, ...).
+  /// `sequence_fps`: image files do not say how fast they follow each other.
+  /// Throws Error: no such file, no video stream in it, a gap in a sequence (number named); DamagedMedia: not even one frame can
+  /// be decoded.
+  /// `response` is the camera's, where the stream does not say it.
+  static std::unique_ptr<MediaSource> open(const std::string& location, double sequence_fps = 24,
+                                           std::shared_ptr<const CameraResponse> response = {});
+  virtual ~MediaSource() = default;
+
+  virtual const SourceInfo& info() const = 0;
+
+  /// The next frame, or none at the end. Throws DamagedMedia where the data is truncated or corrupt, or where the pictures change
+  /// size; the frames before have been delivered, and the next call finds the end. (Cameras and streams: broken frames are
+  /// skipped instead.)
+  virtual std::optional<Frame> read() = 0;
+
+  /// For a sink that carries audio and timing over (null for sequences).
+  virtual const AVStream* video_stream() const = 0;
+};
+
+}  // namespace catchlight::app

@@ -1,0 +1,91 @@
+#include "app/media/write/exr_layers.hpp"
+
+#include <limits>
+
+#include "app/media/read/sequence.hpp"
+#include "app/photometry/linear_patch.hpp"
+#include "app/support/output_file.hpp"
+#include "render/image/image_io.hpp"
+
+namespace catchlight::app {
+
+namespace {
+
+using render::Image;
+
+Image filled(int width, int height, int channels, float value) {
+  Image image(width, height, channels);
+  std::fill(image.data.begin(), image.data.end(), value);
+  return image;
+}
+
+/// Of a frame that nothing virtual reached.
+render::Layers untouched_layers(const Frame& frame) {
+  const int width = frame.width_px(), height = frame.height_px();
+  render::Layers layers;
+  layers.plate = Image(width, height);
+  layers.plate.data = linear_rgb(frame, {0, 0, width, height});
+  layers.object = filled(width, height, 4, 0.0f);
+  layers.shadow = filled(width, height, 3, 1.0f);
+  layers.reflection = layers.glare = layers.normal = filled(width, height, 3, 0.0f);
+  layers.depth = filled(width, height, 1, std::numeric_limits<float>::infinity());
+  return layers;
+}
+
+/// R = plate * shadow * (1 - object.A) + object.R + glare.R, and A = 1: the composite fills the frame.
+Image recomposed(const render::Layers& layers) {
+  Image rgba(layers.plate.width, layers.plate.height, 4);
+  const std::size_t pixels = static_cast<std::size_t>(rgba.width) * rgba.height;
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const float uncovered = 1.0f - layers.object.data[4 * i + 3];
+    for (std::size_t c = 0; c < 3; ++c)
+      rgba.data[4 * i + c] = layers.plate.data[3 * i + c] * layers.shadow.data[3 * i + c] * uncovered +
+                             layers.object.data[4 * i + c] + layers.glare.data[3 * i + c];
+    rgba.data[4 * i + 3] = 1.0f;
+  }
+  return rgba;
+}
+
+Image coverage(const Image& object) {
+  Image alpha(object.width, object.height, 1);
+  for (std::size_t i = 0; i < alpha.data.size(); ++i) alpha.data[i] = object.data[4 * i + 3];
+  return alpha;
+}
+
+class ExrLayerOutput : public FrameOutput {
+ public:
+  ExrLayerOutput(SequencePattern pattern, bool overwrite) : pattern_(std::move(pattern)), overwrite_(overwrite) {}
+
+  bool wants_layers() const override { return true; }
+
+  void write(const Frame& frame, const render::Composite& composite) override {
+    const std::string path = pattern_.file(frame.number()).string();
+    check_output_path(path, overwrite_);
+    const render::Layers layers = composite.layers ? *composite.layers : untouched_layers(frame);
+    const Image rgba = recomposed(layers), matte = coverage(layers.object);
+    const std::vector<std::string> rgb = {"R", "G", "B"};
+    render::write_exr(path, {{"", &rgba, {"R", "G", "B", "A"}},
+                             {"", &layers.depth, {"Z"}, true},
+                             {"plate", &layers.plate, rgb},
+                             {"object", &layers.object, {"R", "G", "B", "A"}},
+                             {"shadow", &layers.shadow, rgb},
+                             {"reflection", &layers.reflection, rgb},
+                             {"glare", &layers.glare, rgb},
+                             {"N", &layers.normal, {"X", "Y", "Z"}},
+                             {"matte", &matte, {"A"}}});
+  }
+
+ private:
+  SequencePattern pattern_;
+  bool overwrite_;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameOutput> open_exr_layers(const std::string& pattern, bool overwrite) {
+  const std::optional<SequencePattern> sequence = SequencePattern::parse(pattern);
+  if (!sequence) throw UsageError(pattern + ": EXR layers are a file a frame; expected a number field, e.g. out.%04d.exr");
+  return std::make_unique<ExrLayerOutput>(*sequence, overwrite);
+}
+
+}  // namespace catchlight::app

@@ -1,0 +1,32 @@
+#include "app/media/write/frame_output.hpp"
+
+#include <filesystem>
+
+#include "app/media/write/exr_layers.hpp"
+
+namespace catchlight::app {
+
+namespace {
+
+class MediaOutput : public FrameOutput {
+ public:
+  explicit MediaOutput(std::unique_ptr<MediaSink> sink) : sink_(std::move(sink)) {}
+
+  void write(const Frame& plate, const render::Composite& composite) override {
+    sink_->write(composite.rect.empty() ? plate : plate.with_composite(composite));
+  }
+  void finish() override { sink_->finish(); }
+
+ private:
+  std::unique_ptr<MediaSink> sink_;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameOutput> open_output(const std::string& path, const std::string& source_location, const MediaSource& source,
+                                         const SinkOptions& options) {
+  if (std::filesystem::path(path).extension() == ".exr") return open_exr_layers(path, options.overwrite);
+  return std::make_unique<MediaOutput>(MediaSink::open(path, source_location, source, options));
+}
+
+}  // namespace catchlight::app

@@ -1,0 +1,30 @@
+#include "app/media/write/sequence_sink.hpp"
+
+#include <fstream>
+
+namespace catchlight::app {
+
+SequenceSink::SequenceSink(SequencePattern pattern, bool overwrite) : pattern_(std::move(pattern)), overwrite_(overwrite) {
+  const PendingFile probe(pattern_.file(0), true);  // an unwritable folder should not wait for the first frame
+}
+
+void SequenceSink::write(const Frame& frame) {
+  const std::string path = pattern_.file(frame.number()), what = "cannot write '" + path + "'";
+  const PendingFile& file = files_.emplace_back(path, overwrite_);
+  if (!encoder_) encoder_ = open_encoder(VideoCodec::png, frame.picture(), {1, 1}, false, {});
+  const FramePtr picture = frame_for(*encoder_, frame.picture());
+  check_ffmpeg(avcodec_send_frame(encoder_.get(), picture.get()), what);
+  check_ffmpeg(avcodec_receive_packet(encoder_.get(), packet_.get()), what);
+  std::ofstream stream(file.pending_path(), std::ios::binary);
+  stream.write(reinterpret_cast<const char*>(packet_->data), packet_->size);
+  av_packet_unref(packet_.get());
+  stream.close();
+  if (!stream) throw Error(what + ": the disk is full or the file cannot be written");
+}
+
+void SequenceSink::finish() {
+  if (files_.empty()) throw Error("cannot write '" + pattern_.file(0).string() + "' and following: there is no frame to write");
+  for (PendingFile& file : files_) file.commit();
+}
+
+}  // namespace catchlight::app

@@ -1,0 +1,117 @@
+#include "app/media/write/video_encoder.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "app/media/pixels/color_tags.hpp"
+#include "app/media/pixels/convert.hpp"
+
+extern "C" {
+#include <libavutil/opt.h>
+#include <libavutil/pixdesc.h>
+}
+
+namespace catchlight::app {
+namespace {
+
+constexpr AVPixelFormat kH264Formats[] = {
+    AV_PIX_FMT_YUV420P,     AV_PIX_FMT_YUV422P,     AV_PIX_FMT_YUV444P, AV_PIX_FMT_NV12,     AV_PIX_FMT_YUV420P10LE,
+    AV_PIX_FMT_YUV422P10LE, AV_PIX_FMT_YUV444P10LE, AV_PIX_FMT_GRAY8,   AV_PIX_FMT_GRAY10LE, AV_PIX_FMT_NONE};
+// H.264 crops in whole chroma samples: odd sizes need full chroma.
+constexpr AVPixelFormat kH264OddFormats[] = {AV_PIX_FMT_YUV444P, AV_PIX_FMT_YUV444P10LE, AV_PIX_FMT_GRAY8, AV_PIX_FMT_GRAY10LE,
+                                             AV_PIX_FMT_NONE};
+constexpr AVPixelFormat kY4mFormats[] = {
+    AV_PIX_FMT_YUV420P,     AV_PIX_FMT_YUV422P,     AV_PIX_FMT_YUV444P,     AV_PIX_FMT_YUV411P,     AV_PIX_FMT_YUV420P10LE,
+    AV_PIX_FMT_YUV422P10LE, AV_PIX_FMT_YUV444P10LE, AV_PIX_FMT_YUV420P12LE, AV_PIX_FMT_YUV422P12LE, AV_PIX_FMT_YUV444P12LE,
+    AV_PIX_FMT_YUV420P16LE, AV_PIX_FMT_YUV422P16LE, AV_PIX_FMT_YUV444P16LE, AV_PIX_FMT_GRAY8,       AV_PIX_FMT_NONE};
+
+struct CodecTraits {
+  const char* name;  // FFmpeg's
+  const char* package_hint;
+};
+
+CodecTraits traits(VideoCodec codec) {
+  switch (codec) {
+    case VideoCodec::h264:
+      return {"libx264", "an FFmpeg with libx264"};
+    case VideoCodec::ffv1:
+      return {"ffv1", "an FFmpeg with FFV1"};
+    case VideoCodec::y4m:
+      return {"wrapped_avframe", "an FFmpeg with wrapped frames"};
+    case VideoCodec::png:
+      return {"png", "an FFmpeg with PNG"};
+  }
+  throw std::logic_error("unknown codec");
+}
+
+const AVPixelFormat* formats_of(VideoCodec codec, const AVCodec& encoder, const AVFrame& first) {
+  if (codec == VideoCodec::y4m) return kY4mFormats;
+  if (codec != VideoCodec::h264) return encoder.pix_fmts;
+  return first.width % 2 == 0 && first.height % 2 == 0 ? kH264Formats : kH264OddFormats;
+}
+
+void copy_tags(AVCodecContext& encoder, const AVFrame& converted) {
+  encoder.color_range = converted.color_range;
+  encoder.colorspace = converted.colorspace;
+  encoder.color_primaries = converted.color_primaries;
+  encoder.color_trc = converted.color_trc;
+  encoder.chroma_sample_location = converted.chroma_location;
+  encoder.sample_aspect_ratio = converted.sample_aspect_ratio;
+}
+
+void set_quality(VideoCodec codec, const SinkOptions& options, AVRational frame_rate, Options& to) {
+  if (codec == VideoCodec::h264) {
+    to.set("crf", std::to_string(options.crf));
+    to.set("preset", options.preset);
+    // x264 would take a rate of thousands a second from the time base, and choose a level that players refuse. Its macroblock
+    // tree, on such a time base, gave one of two results for the same frames in one run out of seven; the same frames must give
+    // the same bytes.
+    to.set("x264-params", "fps=" + std::to_string(frame_rate.num) + "/" + std::to_string(frame_rate.den) + ":mbtree=0");
+  } else if (codec == VideoCodec::ffv1) {
+    to.set("level", "3");
+    to.set("slices", "4");
+    to.set("slicecrc", "1");
+  }
+}
+
+}  // namespace
+
+CodecPtr open_encoder(VideoCodec codec, const AVFrame& first, AVRational frame_rate, bool global_header,
+                      const SinkOptions& options) {
+  const AVCodec* found = avcodec_find_encoder_by_name(traits(codec).name);
+  if (!found) throw Error("cannot encode: " + std::string(traits(codec).package_hint) + " is needed");
+  CodecPtr encoder(allocated(avcodec_alloc_context3(found)));
+  const FramePtr shown = with_display_codes(first);
+  encoder->width = first.width;
+  encoder->height = first.height;
+  encoder->pix_fmt = nearest_format(static_cast<AVPixelFormat>(shown->format), formats_of(codec, *found, first));
+  encoder->time_base = first.time_base;
+  encoder->framerate = frame_rate;
+  encoder->thread_count = codec == VideoCodec::png || codec == VideoCodec::y4m ? 1 : 4;
+  encoder->flags |= AV_CODEC_FLAG_BITEXACT;
+  if (global_header) encoder->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
+  copy_tags(*encoder, *frame_for(*encoder, first));
+  Options settings;
+  set_quality(codec, options, frame_rate, settings);
+  check_ffmpeg(avcodec_open2(encoder.get(), found, settings.get()),
+               "cannot encode " + std::to_string(first.width) + "x" + std::to_string(first.height) + " " +
+                   av_get_pix_fmt_name(encoder->pix_fmt) + " with " + found->name +
+                   (codec == VideoCodec::h264 ? " (preset '" + options.preset + "')" : ""));
+  return encoder;
+}
+
+FramePtr frame_for(const AVCodecContext& encoder, const AVFrame& picture) {
+  FramePtr frame = with_display_codes(picture);
+  if (frame->format != encoder.pix_fmt) frame = convert(*frame, encoder.pix_fmt);
+  frame->pict_type = AV_PICTURE_TYPE_NONE;
+  frame->key_frame = 0;
+  // PNG readers go by its gamma, and BT.709's bare curve is not how such footage is meant; see TransferFunction.
+  const bool rec709 = frame->color_primaries == AVCOL_PRI_BT709 || frame->color_primaries == AVCOL_PRI_UNSPECIFIED;
+  if (encoder.codec_id == AV_CODEC_ID_PNG && rec709 && plate_color(picture).transfer == TransferFunction::srgb) {
+    frame->color_primaries = AVCOL_PRI_BT709;
+    frame->color_trc = AVCOL_TRC_IEC61966_2_1;
+  }
+  return frame;
+}
+
+}  // namespace catchlight::app

@@ -1,0 +1,21 @@
+// The encoders that a sink may use, set up from the first frame. Private to app/media.
+#pragma once
+
+#include <optional>
+
+#include "app/media/ffmpeg_handles.hpp"
+#include "app/media/write/sink.hpp"
+
+namespace catchlight::app {
+
+enum class VideoCodec { h264, ffv1, y4m, png };
+
+/// An encoder for frames like `first`: its size, colour tags, aspect ratio and time base, and its pixel format or the nearest
+/// that the codec has. Encoders run with a fixed number of threads, since x264's output depends on it.
+CodecPtr open_encoder(VideoCodec codec, const AVFrame& first, AVRational frame_rate, bool global_header,
+                      const SinkOptions& options);
+
+/// `picture` as the encoder takes it: its pixel format, nothing of the decoder's (picture types) to steer it by.
+FramePtr frame_for(const AVCodecContext& encoder, const AVFrame& picture);
+
+}  // namespace catchlight::app

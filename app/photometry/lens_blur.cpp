@@ -1,0 +1,139 @@
+#include "app/photometry/lens_blur.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tracking/camera/lens.hpp"
+#include "tracking/statistics.hpp"
+
+namespace catchlight::app {
+namespace {
+
+constexpr std::size_t kFocusFrames = 3;  ///< on either side
+constexpr std::size_t kRemembered = 120;
+constexpr double kSignificant = 4;  ///< standard errors
+
+bool is_measured(const TrackRow& row) {
+  return row.state == tracking::TrackState::tracking && row.noise_codes > 0 && row.blur_px2.xx + row.blur_px2.yy > 0;
+}
+
+/// The rotation's axis times its angle.
+glm::dvec3 rotation_vector(const glm::dmat3& r) {
+  const glm::dvec3 twice_sine(r[1][2] - r[2][1], r[2][0] - r[0][2], r[0][1] - r[1][0]);
+  const double sine = glm::length(twice_sine) / 2, cosine = (r[0][0] + r[1][1] + r[2][2] - 1) / 2;
+  return sine < 1e-12 ? twice_sine / 2.0 : twice_sine * (std::atan2(sine, cosine) / (2 * sine));
+}
+
+/// A frame's share of the motion between two rows, as seen in the middle between them.
+TagMotion motion_between(const TrackRow& before, const TrackRow& after) {
+  const double share = 1.0 / static_cast<double>(after.frame - before.frame);
+  const RigidTransform moved = after.camera_from_tag * inverse(before.camera_from_tag);
+  const glm::dvec3 turn = rotation_vector(moved.rotation);
+  return {turn * share, (moved.translation_m - 0.5 * glm::cross(turn, moved.translation_m)) * share};
+}
+
+bool follows(const TrackRow& row, const TrackRow& next) {
+  return row.found && next.found && next.frame == row.frame + 1;
+}
+
+/// One equation of the shutter: blur's part = shutter^2 * motion's.
+struct Directed {
+  double motion, blur;
+};
+
+double shutter_of(const std::vector<Directed>& parts) {
+  if (parts.size() < 8) return 0;
+  double squared = 0, error = 0, scale = 1e9;
+  for (int iteration = 0; iteration < 10; ++iteration) {
+    double mm = 0, mb = 0, rr = 0, weights = 0;
+    for (const Directed& part : parts) {
+      const double off = std::abs(part.blur - squared * part.motion), weight = off <= 1.5 * scale ? 1 : 1.5 * scale / off;
+      mm += weight * part.motion * part.motion, mb += weight * part.motion * part.blur;
+      rr += weight * off * off, weights += weight;
+    }
+    if (!(mm > 0)) return 0;
+    error = std::sqrt(rr / weights / mm);
+    squared = mb / mm;
+    std::vector<double> offs;
+    for (const Directed& part : parts) offs.push_back(std::abs(part.blur - squared * part.motion));
+    scale = std::max(1.4826 * tracking::median(std::move(offs)), 1e-6);
+  }
+  return squared > kSignificant * error ? std::min(std::sqrt(squared), 1.0) : 0;
+}
+
+double shutter_of(const std::vector<TrackRow>& rows, const std::vector<tracking::Covariance2>& motions) {
+  std::vector<Directed> parts;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!is_measured(rows[i])) continue;
+    const tracking::Covariance2 &motion = motions[i], &blur = rows[i].blur_px2;
+    parts.push_back({motion.xx - motion.yy, blur.xx - blur.yy});
+    parts.push_back({2 * motion.xy, 2 * blur.xy});
+  }
+  return shutter_of(parts);
+}
+
+double focus_of(const TrackRow& row, const tracking::Covariance2& motion, double shutter) {
+  const double blur = (row.blur_px2.xx + row.blur_px2.yy) / 2, of_motion = shutter * shutter * (motion.xx + motion.yy) / 2;
+  return std::max(blur - of_motion, 0.0);
+}
+
+double median_or_0(std::vector<double> values) {
+  return values.empty() ? 0 : tracking::median(std::move(values));
+}
+
+}  // namespace
+
+tracking::Covariance2 motion_covariance(const CameraModel& camera, const RigidTransform& camera_from_tag, const TagMotion& motion,
+                                        double tag_size_m) {
+  tracking::Covariance2 sum;
+  const double half = tag_size_m / 2;
+  constexpr int kPoints = 4;
+  for (const glm::dvec3& corner : {glm::dvec3(-half, -half, 0), {half, -half, 0}, {half, half, 0}, {-half, half, 0}}) {
+    const glm::dvec3 point = camera_from_tag * corner, way = 0.5 * (glm::cross(motion.turn_rad, point) + motion.shift_m);
+    const auto from = tracking::project_px(camera, point - way), to = tracking::project_px(camera, point + way);
+    if (!from || !to) return {};
+    const glm::dvec2 v = *to - *from;
+    sum.xx += v.x * v.x / 12 / kPoints, sum.xy += v.x * v.y / 12 / kPoints, sum.yy += v.y * v.y / 12 / kPoints;
+  }
+  return sum;
+}
+
+void measure_lens_blur(std::vector<TrackRow>& rows, const CameraModel& camera, double tag_size_m) {
+  std::vector<tracking::Covariance2> motions(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const bool has_before = i > 0 && follows(rows[i - 1], rows[i]),
+               has_after = i + 1 < rows.size() && follows(rows[i], rows[i + 1]);
+    rows[i].lens_blur = {};
+    if (has_before || has_after)
+      rows[i].lens_blur.motion = motion_between(rows[has_before ? i - 1 : i], rows[has_after ? i + 1 : i]);
+    if (rows[i].found) motions[i] = motion_covariance(camera, rows[i].camera_from_tag, rows[i].lens_blur.motion, tag_size_m);
+  }
+  const double shutter = shutter_of(rows, motions);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::vector<double> around;
+    const std::size_t first = i - std::min(i, kFocusFrames), end = std::min(rows.size(), i + kFocusFrames + 1);
+    for (std::size_t k = first; k < end; ++k)
+      if (is_measured(rows[k])) around.push_back(focus_of(rows[k], motions[k], shutter));
+    rows[i].lens_blur.shutter = shutter;
+    rows[i].lens_blur.focus_px2 = median_or_0(std::move(around));
+  }
+}
+
+void LensBlurMeter::add(TrackRow& row) {
+  if (!last_.empty() && follows(last_.back(), row)) row.lens_blur.motion = motion_between(last_.back(), row);
+  last_.push_back(row);
+  if (last_.size() > kRemembered) last_.erase(last_.begin());
+  std::vector<tracking::Covariance2> motions;
+  for (const TrackRow& each : last_)
+    motions.push_back(each.found ? motion_covariance(camera_, each.camera_from_tag, each.lens_blur.motion, tag_size_m_)
+                                 : tracking::Covariance2{});
+  row.lens_blur.shutter = shutter_of(last_, motions);
+  std::vector<double> around;
+  const std::size_t window = 2 * kFocusFrames + 1, first = last_.size() - std::min(last_.size(), window);
+  for (std::size_t k = first; k < last_.size(); ++k)
+    if (is_measured(last_[k])) around.push_back(focus_of(last_[k], motions[k], row.lens_blur.shutter));
+  row.lens_blur.focus_px2 = median_or_0(std::move(around));
+  last_.back() = row;
+}
+
+}  // namespace catchlight::app

@@ -1,0 +1,36 @@
+// Takes the blur of the tag's edges apart: what the lens does, and what the shutter does while the tag moves.
+#pragma once
+
+#include <vector>
+
+#include "app/track_export/track_file.hpp"
+
+namespace catchlight::app {
+
+/// Mean over the tag of v v^T / 12, v the way (pixels) its points go from frame to frame: the covariance that a shutter open all
+/// the time would add.
+tracking::Covariance2 motion_covariance(const CameraModel& camera, const RigidTransform& camera_from_tag, const TagMotion& motion,
+                                        double tag_size_m);
+
+/// Fills in `lens_blur` of rows in order, from their poses and blur.
+/// Motion: half the way from the frame before to the frame after, or all of it from one of them.
+/// Shutter: the blur is focus * I + shutter^2 * motion's covariance, so its two parts that have a direction, xx - yy and 2 xy,
+/// are shutter^2 times motion's, whatever the focus: least squares over all rows, those that do not fit weighted down (Huber).
+/// 0 where that is not four times its own standard error.
+/// Focus: what then is left, the mean of both axes; the median of seven frames.
+void measure_lens_blur(std::vector<TrackRow>& rows, const CameraModel& camera, double tag_size_m);
+
+/// The same of live footage: each row by those before it.
+class LensBlurMeter {
+ public:
+  LensBlurMeter(const CameraModel& camera, double tag_size_m) : camera_(camera), tag_size_m_(tag_size_m) {}
+
+  void add(TrackRow& row);
+
+ private:
+  CameraModel camera_;
+  double tag_size_m_;
+  std::vector<TrackRow> last_;
+};
+
+}  // namespace catchlight::app

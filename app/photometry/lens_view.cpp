@@ -1,0 +1,171 @@
+#include "app/photometry/lens_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "app/photometry/linear_patch.hpp"
+#include "app/support/text.hpp"
+#include "tracking/statistics.hpp"
+
+namespace catchlight::app {
+namespace {
+
+constexpr double kVisibleCodes = 0.25;  ///< less noise than rounding itself makes (0.29) is none
+constexpr double kGrey = 0.18;
+constexpr double kPixelBlur_px2 = 1.0 / 12, kLeastDefocus_px2 = 0.02;
+constexpr double kFilmShutter = 0.5;  ///< 180 degrees: where motion blur is asked for and the footage does not say how much
+
+glm::dmat3 covariance(const NoiseModel& noise, double light) {
+  const glm::dvec3 sigma = glm::sqrt(glm::max(noise.slope * light + noise.floor, 0.0));
+  const auto& [rg, rb, gb] = std::tuple{noise.correlation.x, noise.correlation.y, noise.correlation.z};
+  const glm::dmat3 correlation{{1, rg, rb}, {rg, 1, gb}, {rb, gb, 1}};
+  return glm::matrixCompMult(correlation, glm::outerProduct(sigma, sigma));
+}
+
+bool is_visible(const NoiseModel& noise, const render::PlateColor& response) {
+  return std::max(noise_codes(noise, response, kGrey), noise_codes(noise, response, 3 * kGrey)) >= kVisibleCodes;
+}
+
+bool adds_noise(Switch wanted, const NoiseModel& noise, const render::PlateColor& response) {
+  if (wanted == Switch::off || !noise.is_measured()) return false;
+  return wanted == Switch::on || is_visible(noise, response);
+}
+
+PlanEntry noise_entry(Switch wanted, const NoiseModel& noise, const render::PlateColor& response) {
+  const bool on = adds_noise(wanted, noise, response);
+  std::string why;
+  if (wanted == Switch::off) {
+    why = "switched off";
+  } else if (!noise.is_measured()) {
+    why = "not measured: the tag's cells are too small, or the track file does not say";
+  } else {
+    why = "luma's grain is " + fixed_text(noise_codes(noise, response, kGrey), 2) + " codes on a grey of " +
+          fixed_text(kGrey, 2) + ", variance = " + number_text(noise.slope.g) + " x light + " + number_text(noise.floor.g) +
+          " in green";
+    if (!on) why += ", less than rounding's own";
+    if (wanted == Switch::on) why += "; switched on";
+  }
+  return {"lens.noise", on ? "on" : "off", why};
+}
+
+PlanEntry defocus_entry(Switch wanted, const std::vector<TrackRow>& rows) {
+  std::vector<double> measured;
+  for (const TrackRow& row : rows)
+    if (row.lens_blur.focus_px2 > 0) measured.push_back(row.lens_blur.focus_px2);
+  if (wanted == Switch::off) return {"lens.defocus", "off", "switched off"};
+  if (measured.empty()) return {"lens.defocus", "off", "not measured: needs tag.refinement direct"};
+  LensBlurModel typical;
+  typical.focus_px2 = tracking::median(std::move(measured));
+  const double added = defocus_px2(wanted, typical);
+  return {"lens.defocus", added > 0 ? "on" : "off",
+          "the tag's edges are blurred by " + fixed_text(std::sqrt(typical.focus_px2), 2) + " px (standard deviation, median), " +
+              (added > 0 ? fixed_text(std::sqrt(added), 2) + " px more than a pixel's own" : "no more than a pixel's own")};
+}
+
+PlanEntry motion_entry(const SceneSettings::Lens& settings, const LensBlurModel& blur) {
+  const double share = shutter_share(settings, blur);
+  std::string why;
+  if (settings.motion_blur == Switch::off)
+    why = "switched off";
+  else if (settings.shutter > 0)
+    why = "the shutter is set to " + fixed_text(share, 2) + " of the frame's interval";
+  else if (blur.shutter > 0)
+    why = "the tag's blur along its motion is that of a shutter open for " + fixed_text(share, 2) + " of the frame's interval";
+  else
+    why = "the tag's edges show no blur along its motion";
+  if (share > 0 && settings.shutter == 0 && blur.shutter == 0) why += "; switched on, for half of the interval";
+  return {"lens.motion_blur", share > 0 ? "on" : "off", why};
+}
+
+PlanEntry vignetting_entry(Switch wanted, const glm::dvec3& vignetting) {
+  if (wanted == Switch::off) return {"lens.vignetting", "off", "switched off"};
+  if (vignetting == glm::dvec3(0.0)) return {"lens.vignetting", "off", "the camera file gives none"};
+  return {
+      "lens.vignetting", "on",
+      "the camera file leaves the corners " + fixed_text(1 + vignetting.x + vignetting.y + vignetting.z, 2) + " of the light"};
+}
+
+PlanEntry chroma_entry(Switch wanted, const glm::ivec2& shift) {
+  if (shift == glm::ivec2(0)) return {"lens.chroma_subsampling", "off", "every pixel of the footage has its own colour"};
+  const std::string size = std::to_string(1 << shift.x) + " x " + std::to_string(1 << shift.y);
+  if (wanted == Switch::off) return {"lens.chroma_subsampling", "off", "switched off"};
+  return {"lens.chroma_subsampling", "on", size + " pixels of the footage share a colour"};
+}
+
+}  // namespace
+
+double noise_codes(const NoiseModel& noise, const render::PlateColor& response, double light) {
+  const glm::dmat3 c = covariance(noise, light);
+  const double variance = std::max(glm::dot(kLuminanceWeights, c * kLuminanceWeights), 0.0);
+  const double step = 1e-3 * light;
+  const double codes_per_light =
+      255 * (code_from_linear(response, light + step, 1) - code_from_linear(response, light - step, 1)) / (2 * step);
+  return std::sqrt(variance) * codes_per_light;
+}
+
+glm::dmat3 noise_mix(const NoiseModel& noise) {
+  const glm::dmat3 c = covariance(noise, kGrey);
+  const glm::dvec3 w = kLuminanceWeights, one(1.0), with_luma = c * w;
+  const double luma = std::max(glm::dot(w, with_luma), 0.0);
+  // Colour C = n - Y: its covariance, and its own with Y.
+  const glm::dmat3 color =
+      c - glm::outerProduct(one, with_luma) - glm::outerProduct(with_luma, one) + luma * glm::outerProduct(one, one);
+  const glm::dvec3 shared = with_luma - luma;
+  // C has no luma, so red and blue say all of it: Cholesky's factor of theirs.
+  const double rr = std::sqrt(std::max(color[0][0], 0.0)), br = rr > 0 ? color[0][2] / rr : 0;
+  const double bb = std::sqrt(std::max(color[2][2] - br * br, 0.0));
+  const auto of_red_and_blue = [&](double red, double blue) { return glm::dvec3(red, -(w.r * red + w.b * blue) / w.g, blue); };
+  const glm::dvec3 first = of_red_and_blue(rr, br), second = of_red_and_blue(0, bb);
+  // Luma's regression on the two numbers behind C; what is left of it is the pixel's own. The ridge keeps luma from following
+  // colours that hardly vary, which any error of measurement would make it do.
+  const double ridge = 0.005 * luma;
+  const double on_first = rr > 0 ? shared.r * rr / (rr * rr + ridge) : 0;
+  const double on_second = bb > 0 ? (shared.b - br * on_first) * bb / (bb * bb + ridge) : 0;
+  const double alone = std::sqrt(std::max(luma - on_first * on_first - on_second * on_second, 0.0));
+  glm::dmat3 mix(first + on_first, second + on_second, glm::dvec3(alone));
+  for (int channel = 0; channel < 3; ++channel) {
+    const double sigma = std::sqrt(mix[0][channel] * mix[0][channel] + mix[1][channel] * mix[1][channel] + alone * alone);
+    for (int i = 0; i < 3; ++i) mix[i][channel] = sigma > 0 ? mix[i][channel] / sigma : 0;
+  }
+  return mix;
+}
+
+double defocus_px2(Switch wanted, const LensBlurModel& blur) {
+  const double beyond = blur.focus_px2 - kPixelBlur_px2;
+  return wanted == Switch::off || blur.focus_px2 == 0 || beyond < kLeastDefocus_px2 ? 0 : beyond;
+}
+
+double shutter_share(const SceneSettings::Lens& settings, const LensBlurModel& blur) {
+  if (settings.motion_blur == Switch::off) return 0;
+  if (settings.shutter > 0) return settings.shutter;
+  return blur.shutter > 0 || settings.motion_blur == Switch::automatic ? blur.shutter : kFilmShutter;
+}
+
+render::LensView lens_view(const SceneSettings::Lens& settings, const TrackRow& row, const Frame& frame,
+                           const glm::dvec3& vignetting) {
+  render::LensView lens;
+  if (adds_noise(settings.noise, row.noise, frame.color())) {
+    lens.noise.enabled = true;
+    lens.noise.slope = row.noise.slope;
+    lens.noise.floor = row.noise.floor;
+    lens.noise.mix = noise_mix(row.noise);
+    lens.noise.block_shift = frame.color_block_shift();
+    lens.noise.frame = static_cast<std::uint32_t>(row.frame);
+  }
+  lens.defocus_px2 = defocus_px2(settings.defocus, row.lens_blur);
+  const double shutter = shutter_share(settings, row.lens_blur);
+  lens.motion = {row.lens_blur.motion.turn_rad * shutter, row.lens_blur.motion.shift_m * shutter};
+  if (settings.vignetting != Switch::off) lens.vignetting = vignetting;
+  return lens;
+}
+
+std::vector<PlanEntry> lens_plan(const SceneSettings::Lens& settings, const std::vector<TrackRow>& rows, const Frame& frame,
+                                 const glm::dvec3& vignetting) {
+  if (rows.empty()) return {};
+  return {noise_entry(settings.noise, rows.back().noise, frame.color()), defocus_entry(settings.defocus, rows),
+          motion_entry(settings, rows.back().lens_blur), vignetting_entry(settings.vignetting, vignetting),
+          chroma_entry(settings.chroma_subsampling, frame.color_block_shift())};
+}
+
+}  // namespace catchlight::app

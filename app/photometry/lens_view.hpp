@@ -1,0 +1,34 @@
+// From what was measured of the lens, and what the scene file wants of it, to what the compositor draws.
+#pragma once
+
+#include "app/media/pixels/frame.hpp"
+#include "app/session/report.hpp"
+#include "app/settings/scene_settings.hpp"
+#include "app/track_export/track_file.hpp"
+#include "render/compositor.hpp"
+
+namespace catchlight::app {
+
+/// Luma's standard deviation on a grey of `light`, in 8-bit codes.
+double noise_codes(const NoiseModel& noise, const render::PlateColor& response, double light);
+
+/// Splits noise of these variances and correlations into what pixels of one colour sample share and what each has alone
+/// (render::LensNoise::mix): colour is RGB less luma, a block's; luma is the pixel's, and goes with colour as far as it is
+/// correlated. Every channel's variance is 1; correlations are kept within 0.01.
+glm::dmat3 noise_mix(const NoiseModel& noise);
+
+/// Variance of the lens's blur beyond what a pixel's own square gives every picture, ours too; 0: none.
+double defocus_px2(Switch wanted, const LensBlurModel& blur);
+
+/// Share of the frame's interval over which to blur by motion; 0: not.
+double shutter_share(const SceneSettings::Lens& settings, const LensBlurModel& blur);
+
+/// The camera's part of the virtual layer in one frame.
+render::LensView lens_view(const SceneSettings::Lens& settings, const TrackRow& row, const Frame& frame,
+                           const glm::dvec3& vignetting);
+
+/// Which effects are on, by what figure, and why.
+std::vector<PlanEntry> lens_plan(const SceneSettings::Lens& settings, const std::vector<TrackRow>& rows, const Frame& frame,
+                                 const glm::dvec3& vignetting);
+
+}  // namespace catchlight::app

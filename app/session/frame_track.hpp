@@ -1,0 +1,56 @@
+// One row of the track a frame: pose and exposure. Tracked from the pictures, or read from a track file.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/media/pixels/frame.hpp"
+#include "app/settings/scene_settings.hpp"
+#include "app/track_export/track_file.hpp"
+
+namespace catchlight::app {
+
+class FrameTrack {
+ public:
+  virtual ~FrameTrack() = default;
+
+  /// Frames come in order, none left out.
+  virtual TrackRow row(const Frame& frame) = 0;
+
+  /// Whether row() tracks, or only looks up what is known.
+  virtual bool is_tracking() const = 0;
+
+  /// What the user should know of the rows so far, if anything.
+  virtual std::optional<std::string> warning() const = 0;
+};
+
+/// Tracks the tag causally, for live footage: each row knows the frames before it. Measures the tag's photometry.
+std::unique_ptr<FrameTrack> make_tag_track(const CameraModel& camera, const SceneSettings& scene);
+
+/// Tracks recorded footage, where each row may know what comes after it.
+class PathTrack {
+ public:
+  PathTrack(const CameraModel& camera, const SceneSettings& scene);
+  ~PathTrack();
+
+  /// Frames come in order, none left out.
+  void add(const Frame& frame);
+
+  /// One row a frame. The exposure is as app/photometry/exposure_track.hpp says of recorded footage.
+  std::vector<TrackRow> solve() const;
+
+  /// What the user should know of the rows that solve() gave, if anything.
+  std::optional<std::string> warning(const std::vector<TrackRow>& rows) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Frames that `rows` does not have count as lost. Rows without exposure (bare poses) are measured in the pictures.
+std::unique_ptr<FrameTrack> make_recorded_track(std::vector<TrackRow> rows, const CameraModel& camera,
+                                                const SceneSettings& scene);
+
+}  // namespace catchlight::app

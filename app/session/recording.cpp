@@ -1,0 +1,142 @@
+#include "app/session/recording.hpp"
+
+#include <filesystem>
+
+#include "app/response/response_file.hpp"
+#include "app/settings/look.hpp"
+#include "app/settings/parameters.hpp"
+#include "app/settings/scene_file.hpp"
+#include "tracking/camera/camera_file.hpp"
+
+namespace catchlight::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kVideoNames[] = {"video.mp4", "video.mkv", "video.mov", "video.avi"};
+constexpr const char* kPlateExtensions[] = {".png", ".jpg", ".exr"};
+
+/// A folder of stills counts where it holds at least one numbered file of the kind.
+bool holds_numbered_stills(const fs::path& folder, const std::string& extension) {
+  if (!fs::is_directory(folder)) return false;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string stem = entry.path().stem().string();
+    if (entry.path().extension() == extension && !stem.empty() && stem.find_first_not_of("0123456789") == std::string::npos)
+      return true;
+  }
+  return false;
+}
+
+std::string find_footage(const fs::path& folder) {
+  for (const char* name : kVideoNames)
+    if (fs::exists(folder / name)) return (folder / name).string();
+  for (const char* extension : kPlateExtensions)
+    if (holds_numbered_stills(folder / "plate", extension))
+      return (folder / "plate" / ("%04d" + std::string(extension))).string();
+  throw Error(folder.string() +
+              ": no footage in this folder; expected video.mp4 (or .mkv, .mov, .avi) or plate/0000.png, ... (or .jpg, .exr)");
+}
+
+std::optional<std::string> if_exists(const fs::path& path) {
+  if (!fs::exists(path)) return std::nullopt;
+  return path.string();
+}
+
+/// "clip" for "/a/clip.mp4", "plate" for "/a/plate/%04d.png".
+std::string name_of_footage(const std::string& location) {
+  const fs::path path(location);
+  const std::string stem = path.stem().string();
+  return stem.find('%') == std::string::npos ? stem : path.parent_path().filename().string();
+}
+
+Recording open_folder(const std::string& location) {
+  const fs::path folder(location);
+  Recording recording;
+  recording.name = fs::canonical(folder).filename().string();
+  recording.folder = location;
+  recording.footage = find_footage(folder);
+  recording.camera_file = if_exists(folder / "camera.yaml");
+  recording.poses_csv = if_exists(folder / "poses.csv");
+  recording.truth_folder = if_exists(folder / "truth");
+  recording.mask_folder = if_exists(folder / "mask");
+  recording.expected_toml = if_exists(folder / "expected.toml");
+  return recording;
+}
+
+Recording open_bare_footage(const std::string& location) {
+  const bool is_plain_path = location.find("://") == std::string::npos && location.find('%') == std::string::npos;
+  if (is_plain_path && !fs::exists(location))
+    throw Error(
+        location +
+        ": no such file or folder; expected a recording's folder, a video, a %04d pattern, a camera or a stream's address");
+  Recording recording;
+  recording.name = name_of_footage(location);
+  recording.footage = location;
+  return recording;
+}
+
+/// What supplies a missing piece, by the kind of recording.
+std::string where_expected(const Recording& recording, const char* file) {
+  return recording.folder.empty() ? "bare footage brings none" : "expected " + (fs::path(recording.folder) / file).string();
+}
+
+void choose_camera(Recording& recording, const RecordingOverrides& overrides) {
+  if (overrides.camera_file && overrides.fov_deg) throw UsageError("--camera and --fov exclude each other; give one of them");
+  if (overrides.fov_deg && !(*overrides.fov_deg > 0 && *overrides.fov_deg < 180))
+    throw UsageError("--fov: expected a horizontal field of view between 0 and 180 degrees");
+  if (overrides.camera_file) recording.camera_file = overrides.camera_file;
+  if (overrides.fov_deg) {
+    recording.fov_deg = overrides.fov_deg;
+    recording.camera_file.reset();
+  }
+  if (!recording.camera_file && !recording.fov_deg)
+    throw Error(recording.footage + ": no camera (" + where_expected(recording, "camera.yaml") +
+                "); pass --camera FILE, or --fov DEGREES where it is not calibrated");
+}
+
+void choose_scene(Recording& recording, const RecordingOverrides& overrides) {
+  std::optional<std::string> file = overrides.scene_file;
+  if (!file && !recording.folder.empty()) file = if_exists(fs::path(recording.folder) / "scene.toml");
+  if (!file) throw Error(recording.footage + ": no scene (" + where_expected(recording, "scene.toml") + "); pass --scene FILE");
+  recording.scene = read_scene_file(*file);
+  std::set<std::string> options;
+  for (const auto& [key, text] : overrides.parameters) {
+    set_parameter_from_text(recording.scene, key, text);
+    options.insert(key);
+  }
+  // A look that is an option goes before what the scene file sets, as options do.
+  apply_look(recording.scene, options.contains("look") ? options : recording.scene.by_hand);
+  recording.scene.probe.strict = overrides.strict;
+}
+
+}  // namespace
+
+Recording open_recording(const std::string& location, const RecordingOverrides& overrides) {
+  Recording recording = fs::is_directory(location) ? open_folder(location) : open_bare_footage(location);
+  choose_camera(recording, overrides);
+  choose_scene(recording, overrides);
+  return recording;
+}
+
+std::unique_ptr<MediaSource> open_footage(const Recording& recording, const WarningHandler& warn) {
+  const auto known = [&]() -> std::shared_ptr<const CameraResponse> {
+    const auto response = load_response(word_or_path(recording.scene, "exposure.response"), warn);
+    return response ? std::make_shared<CameraResponse>(*response) : nullptr;
+  };
+  constexpr double kSequenceFps = 24;
+  return MediaSource::open(recording.footage, kSequenceFps, known());
+}
+
+CameraModel camera_for_footage(const Recording& recording, int width_px, int height_px) {
+  if (!recording.camera_file) return tracking::camera_from_field_of_view(width_px, height_px, recording.fov_deg.value());
+  const CameraModel camera = tracking::read_camera_file(*recording.camera_file);
+  if (camera.width_px != width_px || camera.height_px != height_px) {
+    const auto size = [](int width, int height) { return std::to_string(width) + "x" + std::to_string(height); };
+    throw Error(*recording.camera_file + ": is for pictures of " + size(camera.width_px, camera.height_px) + ", but " +
+                recording.footage + " is " + size(width_px, height_px) +
+                "; calibrate at that size, or pass another --camera or --fov");
+  }
+  return camera;
+}
+
+}  // namespace catchlight::app

@@ -1,0 +1,46 @@
+// A recording: footage, the camera that took it and the scene to put into it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/media/read/source.hpp"
+#include "app/settings/scene_settings.hpp"
+#include "catchlight.hpp"
+
+namespace catchlight::app {
+
+/// What the command line says about a recording; it goes before what the files say.
+struct RecordingOverrides {
+  std::optional<std::string> scene_file, camera_file;
+  std::optional<double> fov_deg;                                ///< horizontal, instead of a camera file
+  bool strict = false;                                          ///< refuse a probe with bad texels
+  std::vector<std::pair<std::string, std::string>> parameters;  ///< key and text, in the order given
+};
+
+struct Recording {
+  std::string name;     ///< the folder's or the footage's own
+  std::string folder;   ///< empty for bare footage
+  std::string footage;  ///< what MediaSource::open takes
+  std::optional<std::string> camera_file;
+  std::optional<double> fov_deg;  ///< where there is no camera file
+  SceneSettings scene;
+  std::optional<std::string> poses_csv, truth_folder, mask_folder, expected_toml;  ///< where the folder has them
+};
+
+/// `location`: a folder with `video.{mp4,mkv,mov,avi}` or `plate/%04d.{png,jpg,exr}`, camera.yaml and scene.toml; or bare footage
+/// with the scene and the camera (or field of view) among the overrides. The footage itself is not opened. Throws Error: what is
+/// missing and how to supply it; UsageError: overrides that cannot be.
+Recording open_recording(const std::string& location, const RecordingOverrides& overrides = {});
+
+/// The footage, read with the camera's response where the scene names one. Throws Error as MediaSource::open and load_response do.
+std::unique_ptr<MediaSource> open_footage(const Recording& recording, const WarningHandler& warn = {});
+
+/// The camera of a recording whose footage turned out to be of this size. Throws Error naming both sizes where the camera file
+/// has another.
+CameraModel camera_for_footage(const Recording& recording, int width_px, int height_px);
+
+}  // namespace catchlight::app

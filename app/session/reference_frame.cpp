@@ -1,0 +1,104 @@
+#include "app/session/reference_frame.hpp"
+
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "app/photometry/exposure.hpp"
+#include "app/photometry/linear_patch.hpp"
+#include "app/session/scene_build.hpp"
+#include "app/support/output_file.hpp"
+#include "render/reference/path_tracer.hpp"
+
+namespace catchlight::app {
+namespace {
+
+using render::Image;
+namespace reference = render::reference;
+
+/// Exposed linear value = gain * radiance + black.
+struct Exposure {
+  glm::dvec3 gain, black;
+};
+
+Exposure exposure_of(const reference::ReferenceScene& scene, const SceneSettings& settings, const TrackRow& row) {
+  const glm::dvec3 on_tag = render::irradiance(scene.probe, glm::transpose(scene.tag_from_probe) * glm::dvec3(0, 0, 1));
+  return {exposure_gain(settings.exposure, row.exposure, on_tag / glm::pi<double>()),
+          settings.exposure.mode == "match" ? row.black : glm::dvec3(0)};
+}
+
+reference::ReferenceScene traced_scene(const SceneSettings& settings, const TrackRow& row, const WarningHandler& warn) {
+  reference::ReferenceScene scene;
+  scene.mesh = build_mesh(settings, warn);
+  scene.probe = load_scaled_probe(settings, warn);
+  scene.tag_from_probe = light_from_probe(settings.probe);
+  if (settings.probe.fixed_to == "camera")
+    scene.tag_from_probe = glm::transpose(row.camera_from_tag.rotation) * scene.tag_from_probe;
+  scene.has_receiver = settings.receiver.plane == "tag";
+  scene.probe_in_tag_m = probe_in_tag_m(scene.mesh);
+  return scene;
+}
+
+/// Without the camera: what its noise made darker than black is black.
+Image radiance_of(const Image& exposed_linear, const Exposure& exposure) {
+  Image radiance = exposed_linear;
+  for (std::size_t i = 0; i < radiance.data.size(); ++i) {
+    const int c = static_cast<int>(i % 3);
+    const double light = std::max(0.0, radiance.data[i] - exposure.black[c]);
+    radiance.data[i] = exposure.gain[c] > 0 ? static_cast<float>(light / exposure.gain[c]) : 0.0f;
+  }
+  return radiance;
+}
+
+}  // namespace
+
+Image trace_reference_frame(const Frame& frame, const TrackRow& row, const CameraModel& camera, const SceneSettings& settings,
+                            const ReferenceQuality& quality, const WarningHandler& warn, const ProgressHandler& progress) {
+  CameraModel lens = camera;
+  if (settings.lens.distortion == Switch::off) lens.distortion = {};
+  Image plate(frame.width_px(), frame.height_px());
+  plate.data = linear_rgb(frame, {0, 0, plate.width, plate.height});
+
+  reference::ReferenceScene scene = traced_scene(settings, row, warn);
+  const Exposure exposure = exposure_of(scene, settings, row);
+  scene.frame = {radiance_of(plate, exposure), lens, row.camera_from_tag};
+  reference::TraceOptions options;
+  options.samples = quality.samples;
+  options.bounces = quality.bounces;
+  const reference::ReferencePicture traced =
+      reference::PathTracer(std::move(scene), options).render(lens, row.camera_from_tag, progress);
+
+  for (std::size_t i = 0; i < plate.data.size(); ++i) {
+    const int c = static_cast<int>(i % 3);
+    const double kept = traced.kept.data[i], object = traced.object.data[i], black = exposure.black[c];
+    if (kept != 1 || object != 0)
+      plate.data[i] = static_cast<float>((plate.data[i] - black) * kept + object * exposure.gain[c] + black);
+  }
+  return plate;
+}
+
+void write_reference_png(const std::string& path, const Image& exposed_linear, const Frame& frame, bool overwrite) {
+  const render::PlateColor color = frame.color();
+  const bool is_8_bit = frame.rgb({0, 0, 1, 1}).format == render::Plate::Format::rgb_u8;
+  const double full_scale = is_8_bit ? 255 : 65535;
+  cv::Mat picture(exposed_linear.height, exposed_linear.width, is_8_bit ? CV_8UC3 : CV_16UC3);
+  for (int y = 0; y < picture.rows; ++y) {
+    for (int x = 0; x < picture.cols; ++x) {
+      const float* value = exposed_linear.pixel(x, y);
+      const glm::vec3 light = color.plate_from_rec709 * glm::vec3(value[0], value[1], value[2]);
+      for (int c = 0; c < 3; ++c) {
+        const double code = std::round(std::clamp(code_from_linear(color, light[c], c), 0.0, 1.0) * full_scale);
+        const int bgr = 3 * x + 2 - c;
+        if (is_8_bit)
+          picture.ptr<std::uint8_t>(y)[bgr] = static_cast<std::uint8_t>(code);
+        else
+          picture.ptr<std::uint16_t>(y)[bgr] = static_cast<std::uint16_t>(code);
+      }
+    }
+  }
+  PendingFile file(path, overwrite);
+  if (!cv::imwrite(file.pending_path(), picture)) throw Error("cannot write " + path + "; is the disk full?");
+  file.commit();
+}
+
+}  // namespace catchlight::app

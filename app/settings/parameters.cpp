@@ -1,0 +1,227 @@
+#include "app/settings/parameters.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "app/support/text.hpp"
+
+namespace catchlight::app {
+namespace {
+
+template <class... Visitors>
+struct Overloaded : Visitors... {
+  using Visitors::operator()...;
+};
+
+std::string text_of(const glm::dvec3& v) {
+  return number_text(v.x) + ',' + number_text(v.y) + ',' + number_text(v.z);
+}
+
+std::string text_of(Switch value) {
+  if (value == Switch::automatic) return "auto";
+  return value == Switch::on ? "true" : "false";
+}
+
+/// As a message shows what was given.
+std::string shown(const ParameterValue& value) {
+  return std::visit(
+      Overloaded{[](bool flag) { return std::string(flag ? "true" : "false"); },
+                 [](std::int64_t number) { return std::to_string(number); }, [](double number) { return number_text(number); },
+                 [](const std::string& text) { return '"' + text + '"'; },
+                 [](const glm::dvec3& v) { return '[' + text_of(v) + ']'; }},
+      value);
+}
+
+std::string range_text(const std::string& what, const std::string& min, const std::string& max, const std::string& unit) {
+  return what + " from " + min + " to " + max + (unit.empty() ? "" : " " + unit);
+}
+
+/// Whole numbers are numbers too.
+std::optional<double> real_of(const ParameterValue& value) {
+  if (const auto* integer = std::get_if<std::int64_t>(&value)) return static_cast<double>(*integer);
+  if (const auto* real = std::get_if<double>(&value)) return *real;
+  return std::nullopt;
+}
+
+/// NaN is in no range.
+bool in_range(double value, double min, double max) {
+  return value >= min && value <= max;
+}
+
+/// Each stores `value` where it fits its kind and says whether it did.
+struct Store {
+  SceneSettings& settings;
+  const ParameterValue& value;
+
+  bool operator()(const RealKind& kind) const {
+    const std::optional<double> real = real_of(value);
+    if (!real || !in_range(*real, kind.min, kind.max)) return false;
+    kind.access(settings) = *real;
+    return true;
+  }
+  bool operator()(const IntegerKind& kind) const {
+    const auto* integer = std::get_if<std::int64_t>(&value);
+    if (!integer || *integer < kind.min || *integer > kind.max) return false;
+    kind.access(settings) = static_cast<int>(*integer);
+    return true;
+  }
+  bool operator()(const FlagKind& kind) const { return store_as<bool>(kind.access); }
+  bool operator()(const TextKind& kind) const { return store_as<std::string>(kind.access); }
+  bool operator()(const PathKind& kind) const {
+    const auto* path = std::get_if<std::string>(&value);
+    return path && !path->empty() && store_as<std::string>(kind.access);
+  }
+  bool operator()(const ChoiceKind& kind) const {
+    const auto* text = std::get_if<std::string>(&value);
+    const bool known = text && std::find(kind.choices.begin(), kind.choices.end(), *text) != kind.choices.end();
+    return known && store_as<std::string>(kind.access);
+  }
+  bool operator()(const SwitchKind& kind) const {
+    const auto* text = std::get_if<std::string>(&value);
+    const auto* flag = std::get_if<bool>(&value);
+    if (!flag && !(text && *text == "auto")) return false;
+    kind.access(settings) = !flag ? Switch::automatic : *flag ? Switch::on : Switch::off;
+    return true;
+  }
+  bool operator()(const VectorKind& kind) const {
+    const auto* v = std::get_if<glm::dvec3>(&value);
+    for (int i = 0; v && i < 3; ++i)
+      if (!in_range((*v)[i], kind.min, kind.max)) return false;
+    return v && store_as<glm::dvec3>(kind.access);
+  }
+
+ private:
+  template <class T>
+  bool store_as(Access<T> access) const {
+    const T* held = std::get_if<T>(&value);
+    if (held) access(settings) = *held;
+    return held != nullptr;
+  }
+};
+
+bool is_of_object(const Parameter& parameter) {
+  return parameter.key.starts_with("object.");
+}
+
+bool is_of_bundle(const Parameter& parameter) {
+  return parameter.key.starts_with("tag.bundle.");
+}
+
+/// Keys of what may be repeated need one of them to speak of.
+void make_first(SceneSettings& settings, const Parameter& parameter) {
+  if (is_of_object(parameter) && settings.objects.empty()) settings.objects.emplace_back();
+  if (is_of_bundle(parameter) && settings.tag.bundle.empty()) settings.tag.bundle.emplace_back();
+}
+
+std::optional<ParameterValue> vector_from_text(const std::string& text) {
+  const std::vector<std::string> fields = split(text, ',');
+  if (fields.size() != 3) return std::nullopt;
+  glm::dvec3 v;
+  for (int i = 0; i < 3; ++i) {
+    const std::optional<double> component = real_from_text(fields[static_cast<std::size_t>(i)]);
+    if (!component) return std::nullopt;
+    v[i] = *component;
+  }
+  return v;
+}
+
+/// The value that `text` stands for under this kind; text that stands for none is left as text, for set_parameter to refuse.
+ParameterValue value_from_text(const Parameter& parameter, const std::string& text) {
+  const auto flag = [&]() -> std::optional<ParameterValue> {
+    if (text == "true") return true;
+    if (text == "false") return false;
+    return std::nullopt;
+  };
+  const auto parsed =
+      std::visit(Overloaded{[&](const RealKind&) -> std::optional<ParameterValue> { return real_from_text(text); },
+                            [&](const IntegerKind&) -> std::optional<ParameterValue> { return integer_from_text(text); },
+                            [&](const FlagKind&) { return flag(); }, [&](const SwitchKind&) { return flag(); },
+                            [&](const VectorKind&) { return vector_from_text(text); },
+                            [&](const PathKind& kind) -> std::optional<ParameterValue> {
+                              if (text.empty() || kind.is_word(text)) return std::nullopt;
+                              return std::filesystem::absolute(text).string();
+                            },
+                            [](const auto&) -> std::optional<ParameterValue> { return std::nullopt; }},
+                 parameter.kind);
+  return parsed.value_or(text);
+}
+
+}  // namespace
+
+bool PathKind::is_word(const std::string& text) const {
+  return std::any_of(words.begin(), words.end(), [&](const std::string& word) {
+    const std::size_t colon = word.find(':');
+    return colon == std::string::npos ? text == word : text.starts_with(word.substr(0, colon + 1));
+  });
+}
+
+void set_parameter(SceneSettings& settings, const Parameter& parameter, const ParameterValue& value) {
+  make_first(settings, parameter);
+  if (!std::visit(Store{settings, value}, parameter.kind))
+    throw Error(parameter.key + " is " + shown(value) + "; expected " + expected_text(parameter));
+  settings.by_hand.insert(parameter.key);
+}
+
+void set_parameter_from_text(SceneSettings& settings, const std::string& key, const std::string& text) {
+  const Parameter* parameter = find_parameter(key);
+  if (!parameter) throw UsageError("--" + key + ": there is no such parameter; `catchlight params` lists them");
+  if (is_of_bundle(*parameter) && settings.tag.bundle.size() > 1)
+    throw UsageError("--" + key + ": the board has " + std::to_string(settings.tag.bundle.size()) +
+                     " further tags; change the one you mean in the scene file");
+  if (is_of_object(*parameter)) {
+    if (settings.objects.size() > 1)
+      throw UsageError("--" + key + ": the scene has " + std::to_string(settings.objects.size()) +
+                       " objects; change the one you mean in the scene file");
+    if (key.starts_with("object.tag_from_object.") && !settings.objects.empty() && settings.objects.back().matrix)
+      throw UsageError("--" + key +
+                       ": the scene file places the object by a matrix; give it translation_m, rotation_deg and scale there");
+  }
+  try {
+    set_parameter(settings, *parameter, value_from_text(*parameter, text));
+  } catch (const Error& error) {
+    throw UsageError(std::string("--") + error.what());
+  }
+}
+
+std::string parameter_text(const SceneSettings& settings, const Parameter& parameter) {
+  SceneSettings copy = settings;  // the table's accessors give what they can also set
+  make_first(copy, parameter);
+  return std::visit(Overloaded{[&](const RealKind& kind) { return number_text(kind.access(copy)); },
+                               [&](const IntegerKind& kind) { return std::to_string(kind.access(copy)); },
+                               [&](const FlagKind& kind) { return std::string(kind.access(copy) ? "true" : "false"); },
+                               [&](const SwitchKind& kind) { return text_of(kind.access(copy)); },
+                               [&](const VectorKind& kind) { return text_of(kind.access(copy)); },
+                               [&](const auto& kind) { return kind.access(copy); }},
+                    parameter.kind);
+}
+
+std::string word_or_path(const SceneSettings& settings, const std::string& key) {
+  const Parameter& parameter = *find_parameter(key);
+  const std::string value = parameter_text(settings, parameter);
+  return std::get<PathKind>(parameter.kind).is_word(value) ? value : settings.resolve(value);
+}
+
+std::string expected_text(const Parameter& parameter) {
+  const std::string& unit = parameter.unit;
+  return std::visit(
+      Overloaded{[&](const RealKind& kind) { return range_text("a number", number_text(kind.min), number_text(kind.max), unit); },
+                 [&](const IntegerKind& kind) {
+                   return range_text("a whole number", std::to_string(kind.min), std::to_string(kind.max), unit);
+                 },
+                 [](const FlagKind&) { return std::string("true or false"); },
+                 [](const TextKind&) { return std::string("text"); },
+                 [](const PathKind& kind) {
+                   std::string words;
+                   for (const std::string& word : kind.words) words += '"' + word + "\", ";
+                   return (words.empty() ? "" : words + "or ") + "the name of a file";
+                 },
+                 [](const ChoiceKind& kind) { return quoted_list(kind.choices); },
+                 [](const SwitchKind&) { return std::string("\"auto\", true or false"); },
+                 [&](const VectorKind& kind) {
+                   return range_text("three numbers", number_text(kind.min), number_text(kind.max), unit);
+                 }},
+      parameter.kind);
+}
+
+}  // namespace catchlight::app

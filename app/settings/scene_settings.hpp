@@ -1,0 +1,105 @@
+// What a scene file says: the tag, the objects on it, the light, the lens. Every member is a row of the table in parameters.cpp.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "catchlight.hpp"
+#include "render/compositor.hpp"
+#include "tracking/tracker.hpp"
+
+namespace catchlight::app {
+
+/// Left to the program, or forced.
+enum class Switch { automatic, off, on };
+
+struct SceneSettings {
+  std::string look = "camera";  ///< "camera" or "classic"
+
+  struct Tag {
+    std::string family = "tag36h11";
+    int id = 0;
+    double size_m = 0.08;
+    double white_albedo = 0.8, black_albedo = 0.04;
+    std::string refinement = "direct";
+
+    /// A further tag of a board.
+    struct Bundled {
+      std::string family = "same";  ///< "same": as the tag itself
+      int id = 0;
+      double size_m = 0;  ///< 0: as the tag itself
+      glm::dvec3 translation_m{0.0}, rotation_deg{0.0};
+    };
+    std::vector<Bundled> bundle;
+
+    tracking::TagTarget target() const;
+    tracking::TrackerOptions tracker_options() const;
+  } tag;
+
+  struct Object {
+    std::string mesh;
+    glm::dvec3 translation_m{0.0};
+    glm::dvec3 rotation_deg{0.0};
+    double scale = 1.0;
+    std::optional<glm::dmat4> matrix;  ///< stands for the three above where the file gives it
+    std::string shading = "prt";
+
+    /// matrix, or translation * Rz * Ry * Rx * scale: turned about the tag's x axis first, then y, then z.
+    glm::dmat4 tag_from_object() const;
+  };
+  std::vector<Object> objects;
+
+  struct Receiver {
+    std::string plane = "tag";  ///< "tag" or "none"
+    glm::dvec3 albedo{0.8};
+  } receiver;
+
+  struct Probe {
+    std::string image;
+    std::string layout = "auto";  ///< "auto": as the file says, else by its shape
+    std::string up = "z";
+    double yaw_deg = 0;
+    std::string fixed_to = "tag";
+    double ev = 0;
+    bool strict = false;  ///< refuse bad texels; the command line's --strict, not a key of the file
+  } probe;
+
+  struct Exposure {
+    std::string mode = "match";
+    double ev = 0;
+    std::string response = "footage";  ///< as app/response/response_file.hpp says
+    double key = 0.18;                                ///< of "auto", as the next
+    double adapt_bright_s = 0.4, adapt_dark_s = 1.6;  ///< time constants
+  } exposure;
+
+  render::GlareSettings glare;
+
+  struct Lens {
+    Switch noise = Switch::automatic, motion_blur = Switch::automatic, defocus = Switch::automatic,
+           distortion = Switch::automatic, vignetting = Switch::automatic, chroma_subsampling = Switch::automatic;
+    double shutter = 0;  ///< 0: measured
+  } lens;
+
+  struct Quality {
+    double tolerance = 0.004;
+    int bands = 7;
+    int rays = 1024;
+    int bounces = 8;
+    int light_samples = 96;
+    int samples = 4;
+    int reflection_rays = 32;
+    int receiver_points = 96;
+  } quality;
+
+  std::string folder;             ///< paths of files above that are relative start here; empty: the working folder
+  std::set<std::string> by_hand;  ///< keys that the scene file or the command line gave
+
+  bool is_by_hand(const std::string& key) const { return by_hand.contains(key); }
+  /// A path as the file system needs it.
+  std::string resolve(const std::string& path) const;
+};
+
+}  // namespace catchlight::app

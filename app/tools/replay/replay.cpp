@@ -1,0 +1,146 @@
+#include "app/tools/replay/replay.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "app/session/overlay.hpp"
+#include "app/tools/replay/sheet.hpp"
+
+namespace catchlight::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+cv::Mat bgr_of(const Frame& frame) {
+  const render::Plate plate = frame.rgb({0, 0, frame.width_px(), frame.height_px()});
+  const int depth = plate.format == render::Plate::Format::rgb_u8    ? CV_8UC3
+                    : plate.format == render::Plate::Format::rgb_u16 ? CV_16UC3
+                                                                     : CV_32FC3;
+  const double to_8_bit = depth == CV_8UC3 ? 1.0 : depth == CV_16UC3 ? 1.0 / 257 : 255.0;
+  const cv::Mat codes(plate.rect.height, plate.rect.width, depth, const_cast<std::byte*>(plate.pixels.data()));
+  cv::Mat bgr;
+  cv::cvtColor(codes, bgr, cv::COLOR_RGB2BGR);
+  bgr.convertTo(bgr, CV_8U, to_8_bit);
+  return bgr;
+}
+
+/// Keeps the figures of the frames that have a truth; writes nothing.
+class MeasuringOutput : public FrameOutput {
+ public:
+  explicit MeasuringOutput(std::string folder) : folder_(std::move(folder)) {}
+
+  bool wants_frame(std::int64_t number) const override { return fs::exists(path("truth", number)); }
+
+  void write(const Frame& plate, const render::Composite& composite) override {
+    const cv::Mat ours = bgr_of(composite.rect.empty() ? plate : plate.with_composite(composite)), plate_bgr = bgr_of(plate);
+    const cv::Mat truth = read(path("truth", plate.number()), cv::IMREAD_COLOR, ours.size());
+    const fs::path clean_path = path("plate_clean", plate.number());
+    const cv::Mat clean = fs::exists(clean_path) ? read(clean_path, cv::IMREAD_COLOR, ours.size()) : plate_bgr;
+    const cv::Mat mask = read(path("mask", plate.number()), cv::IMREAD_GRAYSCALE, ours.size());
+    comparisons.push_back(compare_with_truth(ours, truth, plate_bgr, clean, mask));
+    sheet_rows.push_back(sheet_row(plate_bgr, ours, truth));
+  }
+
+  std::vector<TruthComparison> comparisons;
+  std::vector<cv::Mat> sheet_rows;
+
+ private:
+  fs::path path(const char* kind, std::int64_t number) const {
+    char name[32];
+    std::snprintf(name, sizeof name, "%04lld.png", static_cast<long long>(number));
+    return fs::path(folder_) / kind / name;
+  }
+
+  static cv::Mat read(const fs::path& path, int mode, const cv::Size& size) {
+    const cv::Mat image = cv::imread(path.string(), mode);
+    if (image.empty()) throw Error(path.string() + ": missing or not a picture; every frame of truth/ needs its mask/");
+    if (image.size() != size)
+      throw Error(path.string() + ": is " + std::to_string(image.cols) + "x" + std::to_string(image.rows) + ", the footage is " +
+                  std::to_string(size.width) + "x" + std::to_string(size.height));
+    return image;
+  }
+
+  std::string folder_;
+};
+
+void add_figures(const PoseComparison& pose, std::vector<Figure>& figures) {
+  figures.push_back({"pose.tracked_frames", static_cast<double>(pose.tracked), 0});
+  figures.push_back({"pose.corner_rms_px", pose.corner_rms_px, 0.003});
+  figures.push_back({"pose.corner_p95_px", pose.corner_p95_px, 0.01});
+  figures.push_back({"pose.translation_median_mm", pose.translation_median_mm, 0.03});
+  figures.push_back({"pose.rotation_median_deg", pose.rotation_median_deg, 0.02});
+  figures.push_back({"pose.rotation_max_deg", pose.rotation_max_deg, 0.1});
+  figures.push_back({"pose.false_positives", static_cast<double>(pose.false_positives), 0});
+  figures.push_back({"pose.flips", static_cast<double>(pose.flips), 0});
+}
+
+void add_figures(const std::string& region, const PictureError& error, std::vector<Figure>& figures) {
+  figures.push_back({region + ".mean", error.mean, 0.1});
+  figures.push_back({region + ".p95", error.p95, 0.3});
+  figures.push_back({region + ".psnr_db", error.psnr_db, 0.2});
+  figures.push_back({region + ".ssim", error.ssim, 0.002});
+}
+
+void add_figures(const TruthComparison& pictures, bool glares, std::vector<Figure>& figures) {
+  add_figures("mask", pictures.mask, figures);
+  add_figures("shadow", pictures.shadow, figures);
+  figures.push_back({"shadow.untouched_mean", pictures.shadow_untouched_mean, 0.1});
+  if (glares) {
+    add_figures("glare", pictures.glare, figures);
+    figures.push_back({"glare.untouched_mean", pictures.glare_untouched_mean, 0.1});
+  }
+  add_figures("elsewhere", pictures.elsewhere, figures);
+  figures.push_back({"elsewhere.changed_mean", pictures.elsewhere_changed_mean, 0.02});
+}
+
+}  // namespace
+
+std::vector<std::string> find_recordings(const std::string& location) {
+  if (fs::exists(fs::path(location) / "scene.toml")) return {location};
+  std::vector<std::string> folders;
+  if (fs::is_directory(location))
+    for (const fs::directory_entry& entry : fs::directory_iterator(location))
+      if (fs::exists(entry.path() / "scene.toml")) folders.push_back(entry.path().string());
+  std::sort(folders.begin(), folders.end());
+  if (folders.empty())
+    throw Error(location + ": no recording here; expected a folder with scene.toml, or a folder of such folders");
+  return folders;
+}
+
+ReplayResult replay_recording(const std::string& location, const RecordingOverrides& overrides, const std::string& sheet_path,
+                              Log& log) {
+  const Recording recording = open_recording(location, overrides);
+  SceneSettings scene = recording.scene;
+  if (!scene.is_by_hand("glare.enabled")) scene.glare.enabled = false;
+  scene.lens.noise = Switch::off;
+  const std::unique_ptr<MediaSource> source = open_footage(recording, log.warning_handler());
+  const CameraModel camera = camera_for_footage(recording, source->info().width_px, source->info().height_px);
+
+  Report report, tracking;
+  const OverlayResult solved = solve_track(*open_footage(recording), camera, scene, FrameRange{}, log, tracking);
+  const std::unique_ptr<FrameTrack> track = make_recorded_track(solved.rows, camera, scene);
+  Stage stage = build_stage(scene, log, report);
+  MeasuringOutput output(recording.folder);
+  const OverlayResult overlaid = run_overlay(*source, *track, stage, scene, camera, output, FrameRange{}, log, report);
+  if (overlaid.damage) throw Error(*overlaid.damage);
+
+  ReplayResult result;
+  result.name = recording.name;
+  if (recording.poses_csv) {
+    result.pose = compare_poses(overlaid.rows, read_track_file(*recording.poses_csv), camera, scene.tag.size_m);
+    add_figures(*result.pose, result.figures);
+  }
+  if (!output.comparisons.empty()) {
+    result.pictures = mean_of(output.comparisons);
+    add_figures(*result.pictures, scene.glare.enabled, result.figures);
+    write_sheet(sheet_path, output.sheet_rows);
+  }
+  if (result.figures.empty()) throw Error(location + ": nothing to compare with; expected poses.csv or truth/ with mask/");
+  return result;
+}
+
+}  // namespace catchlight::app

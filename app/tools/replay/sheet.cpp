@@ -1,0 +1,31 @@
+#include "app/tools/replay/sheet.hpp"
+
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+
+#include "app/support/output_file.hpp"
+#include "catchlight.hpp"
+
+namespace catchlight::app {
+
+cv::Mat sheet_row(const cv::Mat& plate, const cv::Mat& ours, const cv::Mat& truth) {
+  constexpr double kGain = 8;
+  cv::Mat difference, row;
+  cv::absdiff(ours, truth, difference);
+  difference *= kGain;
+  cv::hconcat(std::vector<cv::Mat>{plate, ours, truth, difference}, row);
+  return row;
+}
+
+void write_sheet(const std::string& path, const std::vector<cv::Mat>& rows) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  std::error_code error;
+  if (!folder.empty()) std::filesystem::create_directories(folder, error);
+  PendingFile file(path, true);
+  cv::Mat sheet;
+  cv::vconcat(rows, sheet);
+  if (!cv::imwrite(file.pending_path(), sheet)) throw Error("cannot write " + path + "; is the disk full?");
+  file.commit();
+}
+
+}  // namespace catchlight::app

@@ -1,0 +1,38 @@
+#include "app/support/text.hpp"
+#include "app/tools/tag_print/writers.hpp"
+
+namespace catchlight::app {
+namespace {
+
+/// To 10 nm.
+std::string fixed(double value) {
+  return fixed_text(value, 5);
+}
+
+/// What is printed holds none of XML's special characters but these.
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) result += c == '&' ? "&amp;" : c == '<' ? "&lt;" : std::string(1, c);
+  return result;
+}
+
+}  // namespace
+
+std::string svg_text(const Page& page) {
+  const std::string width = fixed(page.width_mm), height = fixed(page.height_mm);
+  std::string text = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + width + "mm\" height=\"" + height +
+                     "mm\" viewBox=\"0 0 " + width + ' ' + height + "\">\n<rect width=\"" + width + "\" height=\"" + height +
+                     "\" fill=\"white\"/>\n";
+  for (const ShapeMm& shape : page.shapes) {
+    text += "<path d=\"";
+    for (const RectangleMm& r : shape)
+      text += 'M' + fixed(r.x) + ',' + fixed(r.y) + 'h' + fixed(r.width) + 'v' + fixed(r.height) + 'h' + fixed(-r.width) + "z\n";
+    text += "\"/>\n";
+  }
+  text += "<g font-family=\"Helvetica, Arial, sans-serif\" font-size=\"" + fixed(kTextHeightMm) + "\">\n";
+  for (const TextMm& line : page.texts)
+    text += "<text x=\"" + fixed(line.x) + "\" y=\"" + fixed(line.baseline_y) + "\">" + escaped(line.text) + "</text>\n";
+  return text + "</g>\n</svg>\n";
+}
+
+}  // namespace catchlight::app

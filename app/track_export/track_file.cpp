@@ -1,0 +1,228 @@
+#include "app/track_export/track_file.hpp"
+
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <optional>
+
+#include "app/support/text.hpp"
+
+namespace catchlight::app {
+namespace {
+
+using tracking::TrackState;
+
+constexpr std::array<const char*, 12> kPoseColumns{"r00", "r01", "r02", "r10", "r11", "r12",
+                                                   "r20", "r21", "r22", "tx",  "ty",  "tz"};
+constexpr double kRotationTolerance = 1e-3;
+
+/// The pose in the order of kPoseColumns; glm keeps columns.
+std::array<double, 12> pose_cells(const RigidTransform& pose) {
+  std::array<double, 12> cells;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) cells[static_cast<std::size_t>(3 * row + column)] = pose.rotation[column][row];
+    cells[static_cast<std::size_t>(9 + row)] = pose.translation_m[row];
+  }
+  return cells;
+}
+
+RigidTransform pose_from_cells(const std::array<double, 12>& cells) {
+  RigidTransform pose;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) pose.rotation[column][row] = cells[static_cast<std::size_t>(3 * row + column)];
+    pose.translation_m[row] = cells[static_cast<std::size_t>(9 + row)];
+  }
+  return pose;
+}
+
+/// Orthonormal columns, right-handed.
+bool is_rotation(const glm::dmat3& m) {
+  const glm::dmat3 product = glm::transpose(m) * m;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      if (std::abs(product[i][j] - (i == j ? 1.0 : 0.0)) > kRotationTolerance) return false;
+  return glm::determinant(m) > 0;
+}
+
+class Reader {
+ public:
+  explicit Reader(const std::string& path) : path_(path), file_(path) {
+    if (!file_) throw Error(path + ": cannot open the track file; does it exist, and may it be read?");
+    read_header();
+  }
+
+  std::vector<TrackRow> read() {
+    std::vector<TrackRow> rows;
+    while (next_line()) {
+      if (cells_.size() == 1 && cells_[0].empty()) continue;
+      if (cells_.size() != column_count_)
+        fail("has " + std::to_string(cells_.size()) + " fields; the first line names " + std::to_string(column_count_));
+      const TrackRow row = parse_row();
+      if (!rows.empty() && row.frame <= rows.back().frame)
+        fail("frame " + std::to_string(row.frame) + " after frame " + std::to_string(rows.back().frame) +
+             "; expected rising order");
+      rows.push_back(row);
+    }
+    return rows;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const { throw Error(path_ + ':' + std::to_string(line_) + ": " + message); }
+
+  bool next_line() {
+    std::string text;
+    if (!std::getline(file_, text)) return false;
+    ++line_;
+    if (text.ends_with('\r')) text.pop_back();
+    cells_ = split(text, ',');
+    return true;
+  }
+
+  void read_header() {
+    line_ = 1;
+    std::string text;
+    std::getline(file_, text);
+    if (text.ends_with('\r')) text.pop_back();
+    const std::vector<std::string> names = split(text, ',');
+    column_count_ = names.size();
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (!columns_.emplace(names[i], i).second) fail("column '" + names[i] + "' is named twice");
+    if (!columns_.contains("frame"))
+      fail("no column 'frame'; expected a track file, whose first line begins frame,time_s,found,r00");
+  }
+
+  /// Null where the file has no such column.
+  const std::string* cell(const std::string& column) const {
+    const auto found = columns_.find(column);
+    return found == columns_.end() ? nullptr : &cells_[found->second];
+  }
+
+  double finite_number(const std::string& column) const {
+    const std::string* text = cell(column);
+    if (!text) fail("no column '" + column + "', which a frame with a pose needs");
+    const std::optional<double> number = real_from_text(*text);
+    if (!number || !std::isfinite(*number)) fail("column '" + column + "' is \"" + *text + "\"; expected a finite number");
+    return *number;
+  }
+
+  double number_or(const std::string& column, double fallback) const { return cell(column) ? finite_number(column) : fallback; }
+
+  glm::dvec3 rgb_or(const std::string& name, const glm::dvec3& fallback) const {
+    return {number_or(name + "_r", fallback.r), number_or(name + "_g", fallback.g), number_or(name + "_b", fallback.b)};
+  }
+
+  std::int64_t frame() const {
+    const std::string& text = *cell("frame");
+    const std::optional<std::int64_t> number = integer_from_text(text);
+    if (!number || *number < 0) fail("column 'frame' is \"" + text + "\"; expected a whole number from 0");
+    return *number;
+  }
+
+  bool found() const {
+    const std::string* text = cell("found");
+    if (text && *text != "0" && *text != "1") fail("column 'found' is \"" + *text + "\"; expected 0 or 1");
+    return !text || *text == "1";
+  }
+
+  TrackState state(bool is_found) const {
+    const std::string* text = cell("state");
+    if (!text) return is_found ? TrackState::tracking : TrackState::lost;
+    for (const TrackState candidate : {TrackState::tracking, TrackState::coasting, TrackState::lost})
+      if (*text == name_of(candidate) && is_found == (candidate != TrackState::lost)) return candidate;
+    fail("column 'state' is \"" + *text + "\"; expected " +
+         (is_found ? "tracking or coasting, as found is 1" : "lost, as found is 0"));
+  }
+
+  RigidTransform pose() const {
+    std::array<double, 12> cells;
+    for (std::size_t i = 0; i < cells.size(); ++i) cells[i] = finite_number(kPoseColumns[i]);
+    const RigidTransform pose = pose_from_cells(cells);
+    if (!is_rotation(pose.rotation))
+      fail("r00 .. r22 are not a rotation: expected orthonormal rows within 0.001 and determinant 1");
+    return pose;
+  }
+
+  TrackRow parse_row() const {
+    TrackRow row;
+    row.frame = frame();
+    row.time_s = number_or("time_s", 0);
+    row.found = found();
+    row.state = state(row.found);
+    if (row.found) row.camera_from_tag = pose();
+    row.has_exposure = cell("exposure_r") != nullptr;
+    row.exposure = rgb_or("exposure", row.exposure);
+    row.black = rgb_or("black", row.black);
+    row.corner_sigma_px = number_or("corner_sigma_px", 0);
+    row.ambiguity = number_or("ambiguity", 0);
+    row.blur_px2 = {number_or("blur_xx_px2", 0), number_or("blur_xy_px2", 0), number_or("blur_yy_px2", 0)};
+    row.noise_codes = number_or("noise_codes", 0);
+    row.noise.slope = rgb_or("noise_slope", row.noise.slope);
+    row.noise.floor = rgb_or("noise_floor", row.noise.floor);
+    row.noise.correlation = {number_or("noise_correlation_rg", 0), number_or("noise_correlation_rb", 0),
+                             number_or("noise_correlation_gb", 0)};
+    const auto vector = [&](const std::string& name) {
+      return glm::dvec3(number_or(name + "_x", 0), number_or(name + "_y", 0), number_or(name + "_z", 0));
+    };
+    row.lens_blur = {{vector("turn"), vector("shift")}, number_or("shutter", 0), number_or("focus_px2", 0)};
+    return row;
+  }
+
+  std::string path_;
+  std::ifstream file_;
+  std::size_t line_ = 0, column_count_ = 0;
+  std::map<std::string, std::size_t> columns_;
+  std::vector<std::string> cells_;
+};
+
+std::string header_text() {
+  std::string text = "frame,time_s,found";
+  for (const char* column : kPoseColumns) text += std::string(",") + column;
+  return text +
+         ",state,exposure_r,exposure_g,exposure_b,black_r,black_g,black_b,corner_sigma_px,ambiguity,"
+         "blur_xx_px2,blur_xy_px2,blur_yy_px2,noise_codes,noise_slope_r,noise_slope_g,noise_slope_b,noise_floor_r,noise_floor_g,"
+         "noise_floor_b,noise_correlation_rg,noise_correlation_rb,noise_correlation_gb,"
+         "turn_x,turn_y,turn_z,shift_x,shift_y,shift_z,shutter,focus_px2\n";
+}
+
+std::string row_text(const TrackRow& row) {
+  std::string text = std::to_string(row.frame) + ',' + number_text(row.time_s) + (row.found ? ",1" : ",0");
+  for (const double cell : pose_cells(row.camera_from_tag)) text += ',' + (row.found ? number_text(cell) : "");
+  text += std::string(",") + name_of(row.state);
+  for (const glm::dvec3& rgb : {row.exposure, row.black})
+    for (int i = 0; i < 3; ++i) text += ',' + number_text(rgb[i]);
+  const tracking::Covariance2& blur = row.blur_px2;
+  for (const double number : {row.corner_sigma_px, row.ambiguity, blur.xx, blur.xy, blur.yy, row.noise_codes})
+    text += ',' + number_text(number);
+  const TagMotion& motion = row.lens_blur.motion;
+  for (const glm::dvec3& three : {row.noise.slope, row.noise.floor, row.noise.correlation, motion.turn_rad, motion.shift_m})
+    for (int i = 0; i < 3; ++i) text += ',' + number_text(three[i]);
+  for (const double number : {row.lens_blur.shutter, row.lens_blur.focus_px2}) text += ',' + number_text(number);
+  return text + '\n';
+}
+
+}  // namespace
+
+const char* name_of(TrackState state) {
+  switch (state) {
+    case TrackState::tracking:
+      return "tracking";
+    case TrackState::coasting:
+      return "coasting";
+    case TrackState::lost:
+      return "lost";
+  }
+  throw Error("not a track state: " + std::to_string(static_cast<int>(state)));
+}
+
+std::vector<TrackRow> read_track_file(const std::string& path) {
+  return Reader(path).read();
+}
+
+std::string track_file_text(const std::vector<TrackRow>& rows) {
+  std::string text = header_text();
+  for (const TrackRow& row : rows) text += row_text(row);
+  return text;
+}
+
+}  // namespace catchlight::app

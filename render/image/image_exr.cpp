@@ -1,0 +1,195 @@
+#include <OpenEXR/ImfArray.h>
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfChromaticities.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <glm/glm.hpp>
+
+#include "catchlight.hpp"
+#include "render/image/image_io.hpp"
+
+namespace catchlight::render {
+namespace {
+
+constexpr float kHalfMax = 65504.0f;
+constexpr std::int64_t kMaxTexels = std::int64_t{1} << 29;
+
+glm::dvec3 xyz_from_xy(const Imath::V2f& xy) {
+  return {xy.x / xy.y, 1.0, (1.0 - xy.x - xy.y) / xy.y};
+}
+
+glm::dmat3 xyz_from_rgb(const Imf::Chromaticities& primaries) {
+  const glm::dmat3 columns(xyz_from_xy(primaries.red), xyz_from_xy(primaries.green), xyz_from_xy(primaries.blue));
+  const glm::dvec3 scale = glm::inverse(columns) * xyz_from_xy(primaries.white);
+  return {columns[0] * scale.x, columns[1] * scale.y, columns[2] * scale.z};
+}
+
+// Bradford's cone responses (Lam 1985): white of one goes to white of the other.
+glm::dmat3 adapted_white(const glm::dvec3& to_xyz, const glm::dvec3& from_xyz) {
+  const glm::dmat3 cone = glm::transpose(glm::dmat3(0.8951, 0.2664, -0.1614, -0.7502, 1.7135, 0.0367, 0.0389, -0.0685, 1.0296));
+  const glm::dvec3 gain = (cone * to_xyz) / (cone * from_xyz);
+  const glm::dmat3 diagonal(gain.x, 0, 0, 0, gain.y, 0, 0, 0, gain.z);
+  return glm::inverse(cone) * diagonal * cone;
+}
+
+void convert_to_rec709(Image& image, const Imf::Chromaticities& from) {
+  const Imf::Chromaticities rec709;  // the library's default
+  const auto same = [](const Imath::V2f& a, const Imath::V2f& b) { return (a - b).length() < 1e-4f; };
+  if (same(from.red, rec709.red) && same(from.green, rec709.green) && same(from.blue, rec709.blue) &&
+      same(from.white, rec709.white)) {
+    return;
+  }
+  const glm::dmat3 matrix =
+      glm::inverse(xyz_from_rgb(rec709)) * adapted_white(xyz_from_xy(rec709.white), xyz_from_xy(from.white)) * xyz_from_rgb(from);
+  for (std::size_t i = 0; i < image.data.size(); i += image.channels) {
+    const glm::dvec3 rgb = matrix * glm::dvec3(image.data[i], image.data[i + 1], image.data[i + 2]);
+    for (int c = 0; c < 3; ++c) image.data[i + c] = static_cast<float>(rgb[c]);
+  }
+}
+
+std::vector<std::string> channels_to_read(const std::string& path, const Imf::ChannelList& list) {
+  std::vector<std::string> names;
+  if (list.findChannel("R") && list.findChannel("G") && list.findChannel("B")) {
+    names = {"R", "G", "B"};
+    if (list.findChannel("A")) names.emplace_back("A");
+  } else if (list.findChannel("Y") && !list.findChannel("RY")) {
+    names = {"Y"};
+  } else {
+    std::string found;
+    for (auto it = list.begin(); it != list.end(); ++it) found += (found.empty() ? "" : ", ") + std::string(it.name());
+    throw Error(path + ": expected channels R, G, B or Y alone, found " + (found.empty() ? "none" : found));
+  }
+  for (const std::string& name : names) {
+    if (list[name.c_str()].xSampling != 1 || list[name.c_str()].ySampling != 1) {
+      throw Error(path + ": channel " + name + " is subsampled; save it at full resolution");
+    }
+  }
+  return names;
+}
+
+ExrPicture read(const std::string& path) {
+  Imf::InputFile file(path.c_str());
+  const Imf::Header& header = file.header();
+  const Imath::Box2i window = header.dataWindow();
+  const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1,
+                     height = std::int64_t{window.max.y} - window.min.y + 1;
+  if (width < 1 || height < 1 || width > kMaxTexels || height > kMaxTexels / width) {
+    throw Error(path + ": " + std::to_string(width) + " x " + std::to_string(height) + " pixels are out of range");
+  }
+  const std::vector<std::string> names = channels_to_read(path, header.channels());
+  const int channels = std::max<int>(3, static_cast<int>(names.size()));
+  ExrPicture picture{Image(static_cast<int>(width), static_cast<int>(height), channels), {}};
+  const std::size_t pixel_bytes = sizeof(float) * channels, row_bytes = pixel_bytes * width;
+  Imf::FrameBuffer frame;
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    char* first = reinterpret_cast<char*>(picture.image.data.data() + c);
+    frame.insert(names[c], Imf::Slice::Make(Imf::FLOAT, first, window, pixel_bytes, row_bytes));
+  }
+  file.setFrameBuffer(frame);
+  file.readPixels(window.min.y, window.max.y);
+  if (names.size() == 1) {
+    for (std::size_t i = 0; i < picture.image.data.size(); i += 3)
+      picture.image.data[i + 1] = picture.image.data[i + 2] = picture.image.data[i];
+  } else if (Imf::hasChromaticities(header)) {
+    convert_to_rec709(picture.image, Imf::chromaticities(header));
+  }
+  if (Imf::hasEnvmap(header)) picture.envmap = Imf::envmap(header) == Imf::ENVMAP_CUBE ? ExrEnvmap::cube : ExrEnvmap::latlong;
+  return picture;
+}
+
+// The planes that one layer contributes: OpenEXR reads them as the file is written, so they live until then.
+struct Plane {
+  std::string channel;
+  std::vector<half> halves;  ///< empty: floats straight from the image
+  const float* first;
+  int channels;
+};
+
+std::vector<Plane> planes_of(const std::vector<ExrLayer>& layers) {
+  std::vector<Plane> planes;
+  for (const ExrLayer& layer : layers) {
+    const Image& image = *layer.image;
+    for (std::size_t c = 0; c < layer.channels.size(); ++c) {
+      Plane plane{layer.name.empty() ? layer.channels[c] : layer.name + "." + layer.channels[c],
+                  {},
+                  image.data.data() + c,
+                  image.channels};
+      if (!layer.as_float) {
+        plane.halves.reserve(image.data.size() / image.channels);
+        for (std::size_t i = c; i < image.data.size(); i += image.channels) {
+          plane.halves.emplace_back(std::clamp(image.data[i], -kHalfMax, kHalfMax));
+        }
+      }
+      planes.push_back(std::move(plane));
+    }
+  }
+  return planes;
+}
+
+void write(const std::string& path, const std::vector<ExrLayer>& layers, std::optional<ExrEnvmap> envmap) {
+  const int width = layers.front().image->width, height = layers.front().image->height;
+  Imf::Header header(width, height);
+  header.compression() = Imf::ZIP_COMPRESSION;
+  Imf::addChromaticities(header, Imf::Chromaticities());
+  if (envmap) Imf::addEnvmap(header, *envmap == ExrEnvmap::cube ? Imf::ENVMAP_CUBE : Imf::ENVMAP_LATLONG);
+  const std::vector<Plane> planes = planes_of(layers);
+  Imf::FrameBuffer frame;
+  for (const Plane& plane : planes) {
+    const bool is_half = !plane.halves.empty();
+    const Imf::PixelType type = is_half ? Imf::HALF : Imf::FLOAT;
+    const std::size_t step = is_half ? sizeof(half) : sizeof(float) * plane.channels;
+    // OpenEXR's slices are for reading and writing alike, hence not const.
+    char* first = const_cast<char*>(is_half ? reinterpret_cast<const char*>(plane.halves.data())
+                                            : reinterpret_cast<const char*>(plane.first));
+    header.channels().insert(plane.channel, Imf::Channel(type));
+    frame.insert(plane.channel, Imf::Slice(type, first, step, step * width));
+  }
+  Imf::OutputFile file(path.c_str(), header);
+  file.setFrameBuffer(frame);
+  file.writePixels(height);
+}
+
+}  // namespace
+
+ExrPicture read_exr_picture(const std::string& path) {
+  try {
+    return read(path);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw Error(path + ": cannot be read as OpenEXR: " + error.what());
+  }
+}
+
+Image read_exr(const std::string& path) {
+  return read_exr_picture(path).image;
+}
+
+void write_exr(const std::string& path, const std::vector<ExrLayer>& layers, std::optional<ExrEnvmap> envmap) {
+  if (layers.empty()) throw std::invalid_argument("write_exr: no layers for " + path);
+  for (const ExrLayer& layer : layers) {
+    const Image& image = *layer.image;
+    if (image.width != layers.front().image->width || image.height != layers.front().image->height ||
+        static_cast<int>(layer.channels.size()) > image.channels) {
+      throw std::invalid_argument("write_exr: layer \"" + layer.name + "\" of " + path + " has another size or too few channels");
+    }
+  }
+  const std::string partial = path + ".partial";
+  try {
+    write(partial, layers, envmap);
+    std::filesystem::rename(partial, path);
+  } catch (const std::exception& error) {
+    std::error_code ignored;
+    std::filesystem::remove(partial, ignored);
+    throw Error(path + ": cannot be written: " + error.what());
+  }
+}
+
+}  // namespace catchlight::render

@@ -1,0 +1,92 @@
+#include "render/passes/glare/bloom.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/gl/read_back.hpp"
+#include "render/gl/shader.hpp"
+#include "shaders/interface.h"
+
+namespace catchlight::render {
+namespace {
+
+constexpr std::size_t kReadLevel = 3;
+
+}  // namespace
+
+BloomPass::BloomPass(const std::string& shader_folder)
+    : down_(make_program({.vertex = "fullscreen.vert", .fragment = "glare_down.frag", .captured = {}}, shader_folder)),
+      up_(make_program({.vertex = "fullscreen.vert", .fragment = "glare_up.frag", .captured = {}, .defines = "#define OWN\n"},
+                       shader_folder)),
+      up_to_grid_(make_program({.vertex = "fullscreen.vert", .fragment = "glare_up.frag", .captured = {}}, shader_folder)) {}
+
+void BloomPass::resize(int columns, int rows, double rows_per_height) {
+  blurs_ = plan_bloom(rows_per_height);
+  levels_.clear();
+  int width = columns - 2 * GLARE_MARGIN, height = rows - 2 * GLARE_MARGIN;
+  for (int level = 1; level <= std::max(blurs_.back().level, 1); ++level) {
+    width = (width + 1) / 2, height = (height + 1) / 2;
+    const auto target = [&](const char* label) {
+      return make_glare_target(label, width + 2 * GLARE_MARGIN, height + 2 * GLARE_MARGIN);
+    };
+    levels_.push_back({target("shrunk excess"), target("bloom rows"), target("bloom")});
+  }
+}
+
+PixelRect BloomPass::texels_at(const PixelRect& texels, int level, int around) const {
+  const ColorTarget<1>& target = levels_[static_cast<std::size_t>(level) - 1].shrunk;
+  const double step = std::exp2(level);
+  const auto low = [&](int t) { return static_cast<int>(std::floor((t - GLARE_MARGIN) / step)) + GLARE_MARGIN - around; };
+  const auto high = [&](int t) { return static_cast<int>(std::ceil((t - GLARE_MARGIN) / step)) + GLARE_MARGIN + around; };
+  const int x = low(texels.x), y = low(texels.y);
+  return intersect({x, y, high(texels.x + texels.width) - x, high(texels.y + texels.height) - y},
+                   {0, 0, target.width(), target.height()});
+}
+
+void BloomPass::shrink(const GlTexture& excess, const PixelRect& texels) {
+  glUseProgram(down_.id());
+  const GlTexture* source = &excess;
+  for (std::size_t k = 0; k < levels_.size(); ++k) {
+    clear(levels_[k].shrunk);
+    glBindTextureUnit(TEXTURE_SOURCE, source->id());
+    draw_over(levels_[k].shrunk, texels_at(texels, static_cast<int>(k) + 1));
+    source = &levels_[k].shrunk.texture();
+  }
+}
+
+double BloomPass::total() const {
+  // Small enough to be read back.
+  const std::size_t level = std::min<std::size_t>(kReadLevel, levels_.size());
+  const ColorTarget<1>& shrunk = levels_[level - 1].shrunk;
+  const Image image = read_back(shrunk.framebuffer(), 0, shrunk.width(), shrunk.height(), 3);
+  glm::dvec3 sum(0);
+  for (std::size_t i = 0; i < image.data.size(); i += 3) sum += glm::dvec3(image.data[i], image.data[i + 1], image.data[i + 2]);
+  return std::exp2(2 * level) * std::max({sum.r, sum.g, sum.b});
+}
+
+void BloomPass::glow(int number, double strength, const PixelRect& texels, const GlareBlur& blur) const {
+  const Level& to = level(number);
+  const PixelRect reached = texels_at(texels, number);
+  double own_gain = 0;
+  for (const BloomBlur& step : blurs_) {
+    if (step.level == number && step.taps.size() == 1) own_gain += strength * step.weight;
+  }
+  glUseProgram(up_.id());
+  glUniform1f(0, static_cast<float>(own_gain));
+  glUniform1f(1, number == coarsest() ? 0.0f : 1.0f);
+  glBindTextureUnit(TEXTURE_SOURCE, to.shrunk.texture().id());
+  glBindTextureUnit(TEXTURE_COARSER, (number == coarsest() ? to.shrunk : level(number + 1).glow).texture().id());
+  draw_over(to.glow, reached);
+  for (const BloomBlur& step : blurs_) {
+    if (step.level == number && step.taps.size() > 1 && strength > 0)
+      blur.add(to.shrunk.texture(), to.scratch, to.glow, step.taps, strength * step.weight, reached);
+  }
+}
+
+void BloomPass::gather(const ColorTarget<1>& target, const PixelRect& texels) const {
+  glUseProgram(up_to_grid_.id());
+  glBindTextureUnit(TEXTURE_COARSER, level(1).glow.texture().id());
+  draw_over(target, texels);
+}
+
+}  // namespace catchlight::render

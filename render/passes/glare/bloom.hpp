@@ -1,0 +1,50 @@
+// Bloom: the excess blurred by several Gaussians, each at the resolution that it needs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/glare/glare_plan.hpp"
+#include "render/passes/glare/glare_blur.hpp"
+
+namespace catchlight::render {
+
+class BloomPass {
+ public:
+  explicit BloomPass(const std::string& shader_folder);
+
+  /// For a grid of that many texels, margins included.
+  void resize(int columns, int rows, double rows_per_height);
+
+  /// Halves the excess again and again; needed before the two below.
+  void shrink(const GlTexture& excess, const PixelRect& texels);
+
+  /// Sum over the texels of the grid, of the channel that has most.
+  double total() const;
+
+  /// The halvings by number, from 1: the excess, and what glows of it there.
+  struct Level {
+    ColorTarget<1> shrunk, scratch, glow;
+  };
+  int coarsest() const { return static_cast<int>(levels_.size()); }
+  const Level& level(int number) const { return levels_[static_cast<std::size_t>(number) - 1]; }
+  /// Texels of a level that touch these of the grid, and as many around them as the way up reads, or else `around`.
+  PixelRect texels_at(const PixelRect& texels, int level, int around = 3) const;
+
+  /// What is to be drawn; not by this class where it needs the grid itself.
+  const std::vector<BloomBlur>& blurs() const { return blurs_; }
+
+  /// From the coarsest level to the first: makes its glow, strength times the bloom of this level and the coarser ones. What else
+  /// is to glow there is added before the next one is made.
+  void glow(int number, double strength, const PixelRect& texels, const GlareBlur& blur) const;
+
+  /// Then writes it to `target`, of the grid's size, over `texels`.
+  void gather(const ColorTarget<1>& target, const PixelRect& texels) const;
+
+ private:
+  GlProgram down_, up_, up_to_grid_;
+  std::vector<BloomBlur> blurs_;
+  std::vector<Level> levels_;  ///< the first has half of the grid's resolution
+};
+
+}  // namespace catchlight::render

@@ -1,0 +1,219 @@
+#include "render/passes/glare/glare_pass.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/gl/read_back.hpp"
+#include "render/gl/shader.hpp"
+#include "shaders/interface.h"
+
+namespace catchlight::render {
+namespace {
+
+/// How many texels beyond a pixel the first filter carries its light, and beyond a texel the gate looks.
+constexpr int kFilterReach = 2, kGateReach = 2;
+/// From a bright pixel: texels that its gate can open for, and those that the gate looks at there.
+constexpr int kExcessReach = kFilterReach + kGateReach, kLightReach = kExcessReach + kGateReach;
+
+PixelRect around(const std::vector<PixelRect>& rectangles) {
+  PixelRect all;
+  for (const PixelRect& each : rectangles) all = unite(all, each);
+  return all;
+}
+
+GlProgram fragment_program(const char* name, const std::string& folder) {
+  return make_program({.vertex = "fullscreen.vert", .fragment = name, .captured = {}}, folder);
+}
+
+}  // namespace
+
+GlarePass::GlarePass(const GlareSettings& settings, const std::string& shader_folder)
+    : settings_(settings),
+      filter_rows_("glare_filter.frag", shader_folder, "#define AXIS 0\n"),
+      filter_rows_with_emission_("glare_filter.frag", shader_folder, "#define AXIS 0\n#define EMISSION\n"),
+      filter_columns_("glare_filter.frag", shader_folder, "#define AXIS 1\n"),
+      bright_(fragment_program("glare_bright.frag", shader_folder)),
+      tiles_(shader_folder),
+      blur_(shader_folder),
+      bloom_(shader_folder),
+      streaks_(shader_folder),
+      any_bright_(make_query(GL_ANY_SAMPLES_PASSED)) {}
+
+void GlarePass::make_targets(int frame_width, int frame_height) {
+  frame_width_ = frame_width;
+  frame_height_ = frame_height;
+  grid_ = make_glare_grid(frame_width, frame_height, settings_.grid_rows);
+  const auto target = [&](const char* label) {
+    return std::make_unique<ColorTarget<1>>(make_glare_target(label, grid_.columns, grid_.rows));
+  };
+  light_ = target("light to glare");
+  excess_ = target("excess");
+  reflected_.reset();
+  emitted_.reset();
+  scratch_ = target("glare rows");
+  glow_ = target("glare");
+  bloom_.resize(grid_.columns, grid_.rows, grid_.rows_per_height(frame_height));
+  narrow_.reset();
+}
+
+/// Pixel `first_pixel` of the frame is the first of `source_size` along the filter's axis.
+void GlarePass::use_filter(const TapPrograms& programs, int first_pixel, int source_size) const {
+  const GLuint program = programs.with(static_cast<int>(std::floor(4 * grid_.texel_px)) + 1);
+  glUseProgram(program);
+  glProgramUniform1i(program, 1, first_pixel);
+  glProgramUniform1i(program, 2, source_size);
+  glProgramUniform1f(program, 3, static_cast<float>(grid_.texel_px));
+}
+
+/// The object's light on the grid: first along the pixels' rows, then down the columns.
+void GlarePass::filter(const GlTexture& object, const GlTexture* emission, const PixelRect& rect) {
+  if (!filtered_rows_ || filtered_rows_->width() != grid_.columns || filtered_rows_->height() < rect.height)
+    filtered_rows_ = std::make_unique<ColorTarget<1>>(make_glare_target("rows to glare", grid_.columns, roomy(rect.height)));
+  use_filter(emission ? filter_rows_with_emission_ : filter_rows_, rect.x, rect.width);
+  glBindTextureUnit(TEXTURE_SOURCE, object.id());
+  glBindTextureUnit(TEXTURE_EMISSION, (emission ? *emission : object).id());
+  std::vector<PixelRect> pixels;
+  for (const PixelRect& texels : tiles_.grown(kLightReach, kLightReach + kFilterReach)) {
+    const PixelRect rows = grid_.pixels(texels);
+    pixels.push_back(intersect({texels.x, rows.y - rect.y, texels.width, rows.height}, {0, 0, grid_.columns, rect.height}));
+  }
+  rectangles_.draw(*filtered_rows_, pixels);
+  use_filter(filter_columns_, rect.y, rect.height);
+  glBindTextureUnit(TEXTURE_SOURCE, filtered_rows_->texture().id());
+  rectangles_.draw(*light_, tiles_.grown(kLightReach, kLightReach));
+}
+
+/// The excess comes in two parts beside its sum, ready for their own streaks.
+void GlarePass::attach_parts() {
+  if (!emitted_) {
+    for (auto* part : {&reflected_, &emitted_})
+      *part = std::make_unique<ColorTarget<1>>(make_glare_target("part of the excess", grid_.columns, grid_.rows));
+    const GLenum drawn[3] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2};
+    glNamedFramebufferTexture(excess_->framebuffer(), drawn[1], reflected_->texture().id(), 0);
+    glNamedFramebufferTexture(excess_->framebuffer(), drawn[2], emitted_->texture().id(), 0);
+    glNamedFramebufferDrawBuffers(excess_->framebuffer(), 3, drawn);
+  }
+  clear(*reflected_);
+  clear(*emitted_);
+}
+
+bool GlarePass::extract(const GlTexture& object, const GlTexture* emission, const PixelRect& rect, int frame_width,
+                        int frame_height) {
+  if (!glow_ || frame_width != frame_width_ || frame_height != frame_height_) make_targets(frame_width, frame_height);
+  reset_state();
+  glBindVertexArray(rectangles_.vertex_array().id());
+  const float threshold = std::max(static_cast<float>(settings_.threshold), 1e-6f);
+  if (!tiles_.find(object, rect, grid_, threshold)) return false;
+  filter(object, emission, rect);
+  divided_ = emission && settings_.emitter_directions != 0;
+  if (divided_) attach_parts();
+  clear(*excess_);
+  glUseProgram(bright_.id());
+  glProgramUniform1f(bright_.id(), 0, threshold);
+  glProgramUniform1f(bright_.id(), 1, static_cast<float>(settings_.brightest));
+  glProgramUniform1f(bright_.id(), 2, static_cast<float>(settings_.emitter_strength));
+  glBindTextureUnit(TEXTURE_SOURCE, light_->texture().id());
+  glBeginQuery(GL_ANY_SAMPLES_PASSED, any_bright_.id());
+  rectangles_.draw(*excess_, tiles_.grown(kExcessReach, kExcessReach));
+  glEndQuery(GL_ANY_SAMPLES_PASSED);
+  GLuint any = 0;
+  glGetQueryObjectuiv(any_bright_.id(), GL_QUERY_RESULT, &any);
+  return any != 0;
+}
+
+PixelRect GlarePass::spread() {
+  reset_state();
+  glBindVertexArray(rectangles_.vertex_array().id());
+  const PixelRect all = all_texels(), light = intersect(around(tiles_.grown(kExcessReach, kExcessReach)), all);
+  bloom_.shrink(excess_->texture(), light);
+  const double rows_per_height = grid_.rows_per_height(frame_height_);
+  const GlareReach reach = glare_reach(settings_, rows_per_height, bloom_.total());
+  const int grow = static_cast<int>(std::ceil(std::max(reach.bloom_texels, reach.streak_texels)));
+  const PixelRect texels = intersect({light.x - grow, light.y - grow, light.width + 2 * grow, light.height + 2 * grow}, all);
+  StreakGrid on = streak_grid(settings_, rows_per_height);
+  // The two parts of the excess are not in the pyramid.
+  if (divided_) on = {0, std::pow(settings_.streak_width * rows_per_height, 2)};
+  for (int level = bloom_.coarsest(); level > 0; --level) {
+    bloom_.glow(level, settings_.bloom_strength, texels, blur_);
+    if (level == on.level) add_streaks(on, reach.streak_texels, texels);
+  }
+  if (texels != all) clear(*glow_);
+  bloom_.gather(*glow_, texels);
+  add_narrow_bloom();
+  if (on.level == 0) add_streaks(on, reach.streak_texels, texels);
+  return intersect(grid_.pixels(texels), {0, 0, frame_width_, frame_height_});
+}
+
+/// What of the bloom the grid itself is needed for, around the light alone.
+void GlarePass::add_narrow_bloom() {
+  for (const BloomBlur& each : bloom_.blurs()) {
+    if (each.level > 0 || settings_.bloom_strength <= 0) continue;
+    const double weight = settings_.bloom_strength * each.weight;
+    const int reach = kExcessReach + static_cast<int>(each.taps.size()) - 1;
+    clear(*scratch_);
+    blur_.use(excess_->texture(), 0, each.taps, weight);
+    rectangles_.draw(*scratch_, tiles_.grown(reach, kExcessReach));
+    blur_.use(scratch_->texture(), 1, each.taps, weight);
+    const AdditiveBlending blending;
+    rectangles_.draw(*glow_, tiles_.grown(reach, reach));
+  }
+}
+
+void GlarePass::add_streaks(const StreakGrid& on, double reach_texels, const PixelRect& texels) {
+  if (settings_.streak_strength <= 0) return;
+  const GlTexture& source = divided_        ? reflected_->texture()
+                            : on.level == 0 ? excess_->texture()
+                                            : bloom_.level(on.level).shrunk.texture();
+  add_star(source, settings_.streak_directions, on, reach_texels, texels);
+  if (divided_) add_star(emitted_->texture(), settings_.emitter_directions, on, reach_texels, texels);
+}
+
+void GlarePass::add_star(const GlTexture& source, int directions, const StreakGrid& on, double reach_texels,
+                         const PixelRect& texels) {
+  const double rows_per_height = grid_.rows_per_height(frame_height_) / std::exp2(on.level);
+  const ColorTarget<1>& target = on.level == 0 ? *glow_ : bloom_.level(on.level).glow;
+  // Going down carries light less than two texels further.
+  const auto at_level = [&](const PixelRect& r, int more) {
+    return on.level == 0 ? intersect(r, all_texels()) : bloom_.texels_at(r, on.level, more);
+  };
+  const std::vector<double> taps = gaussian_taps(on.own_blur);
+  const int reach = kExcessReach + (static_cast<int>(taps.size()) - 1) * (1 << on.level);
+  const PixelRect light = at_level(around(tiles_.grown(reach, reach)), 2);
+  const GlTexture* narrow = &source;
+  if (taps.size() > 1) {
+    const ColorTarget<1>& scratch = on.level == 0 ? *scratch_ : bloom_.level(on.level).scratch;
+    if (!narrow_ || narrow_->width() != target.width() || narrow_->height() != target.height())
+      narrow_ = std::make_unique<ColorTarget<1>>(make_glare_target("streak source", target.width(), target.height()));
+    clear(*narrow_);
+    blur_.add(source, scratch, *narrow_, taps, 1, light);
+    narrow = &narrow_->texture();
+  }
+  const glm::dvec3 log_per_texel = streak_log_per_height(settings_) / rows_per_height;
+  const int passes = streak_pass_count(settings_, reach_texels / std::exp2(on.level));
+  std::vector<std::vector<StreakSamples>> arms;
+  StreakSamples half_of_first{1, {0, 0}, glm::dvec3(0), glm::dvec3(0)};
+  for (const glm::dvec2& direction : streak_directions(directions, settings_.streak_rotation_deg)) {
+    // Neither their number nor the passes nor the resolution changes the brightness.
+    const glm::dvec3 gain = settings_.streak_strength / directions / streak_sum(direction, log_per_texel, passes);
+    arms.push_back(streak_passes(direction, log_per_texel, passes, gain));
+    half_of_first.gain -= 0.5 * gain;
+  }
+  streaks_.add(*narrow, light, arms, target, at_level(texels, 3));
+  const std::vector<std::vector<StreakSamples>> half{{half_of_first}};
+  streaks_.add(*narrow, light, half, target, light);
+}
+
+Image GlarePass::read_excess() const {
+  return read_back(excess_->framebuffer(), 0, grid_.columns, grid_.rows, 3);
+}
+
+Image GlarePass::read_glare() const {
+  return read_back(glow_->framebuffer(), 0, grid_.columns, grid_.rows, 3);
+}
+
+glm::vec4 GlarePass::texels_from_frame() const {
+  const auto per_pixel = static_cast<float>(1 / grid_.texel_px);
+  return {per_pixel, per_pixel, GLARE_MARGIN, GLARE_MARGIN};
+}
+
+}  // namespace catchlight::render

@@ -1,0 +1,64 @@
+// What exceeds the sensor's white spills in the lens: bloom and streaks, computed on a grid of few rows that is fixed to the
+// frame (not to the object), so that it neither crawls nor changes with the frame's resolution.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "render/compositor.hpp"
+#include "render/gl/tap_programs.hpp"
+#include "render/glare/glare_plan.hpp"
+#include "render/passes/glare/bloom.hpp"
+#include "render/passes/glare/glare_tiles.hpp"
+#include "render/passes/glare/streaks.hpp"
+
+namespace catchlight::render {
+
+class GlarePass {
+ public:
+  GlarePass(const GlareSettings& settings, const std::string& shader_folder);
+
+  /// Extracts what is over the threshold of `object` (which holds the frame's pixels of `rect`). `emission`: the object's own
+  /// light among it, in the same pixels; null where it glares as the rest. False, and nothing else to do, where nothing is.
+  bool extract(const GlTexture& object, const GlTexture* emission, const PixelRect& rect, int frame_width, int frame_height);
+
+  /// After extract() was true: bloom and streaks. Gives the pixels of the frame that they reach.
+  PixelRect spread();
+
+  /// The excess on the grid with its margins, exposed linear light per texel; and on the CPU, RGB.
+  const GlTexture& excess() const { return excess_->texture(); }
+  Image read_excess() const;
+  const GlareGrid& grid() const { return grid_; }
+
+  /// What is added to the frame, exposed linear light, strengths included, on the same grid; to be read as a cubic B-spline.
+  const GlTexture& glare() const { return glow_->texture(); }
+  Image read_glare() const;
+  /// Coordinates of the glare's texels: pixel of the frame times xy plus zw.
+  glm::vec4 texels_from_frame() const;
+
+ private:
+  void make_targets(int frame_width, int frame_height);
+  void filter(const GlTexture& object, const GlTexture* emission, const PixelRect& rect);
+  void use_filter(const TapPrograms& programs, int first_pixel, int source_size) const;
+  void attach_parts();
+  PixelRect all_texels() const { return {0, 0, grid_.columns, grid_.rows}; }
+  void add_narrow_bloom();
+  void add_streaks(const StreakGrid& on, double reach_texels, const PixelRect& texels);
+  void add_star(const GlTexture& source, int directions, const StreakGrid& on, double reach_texels, const PixelRect& texels);
+
+  GlareSettings settings_;
+  TapPrograms filter_rows_, filter_rows_with_emission_, filter_columns_;
+  GlProgram bright_;
+  GlareTiles tiles_;
+  RectangleArray rectangles_;
+  GlareBlur blur_;
+  BloomPass bloom_;
+  StreakPass streaks_;
+  GlQuery any_bright_;
+  GlareGrid grid_{};
+  int frame_width_ = 0, frame_height_ = 0;
+  bool divided_ = false;  ///< what is emitted has streaks of its own
+  std::unique_ptr<ColorTarget<1>> filtered_rows_, reflected_, emitted_, light_, excess_, scratch_, narrow_, glow_;
+};
+
+}  // namespace catchlight::render

@@ -1,0 +1,91 @@
+#include "render/passes/glare/glare_tiles.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "shaders/interface.h"
+
+namespace catchlight::render {
+namespace {
+
+int tiles_in(int texels) {
+  return (texels + GLARE_TILE - 1) / GLARE_TILE;
+}
+
+}  // namespace
+
+TileMask TileMask::grown(int across, int down) const {
+  // What is marked at least once within the window, one axis after the other: counts that move along.
+  const auto grow = [](const TileMask& from, int count, int lines, int along, int line_step, int reach) {
+    TileMask to = from;
+    for (int line = 0; line < lines; ++line) {
+      const auto at = [&](int i) { return static_cast<std::size_t>(line * line_step + i * along); };
+      int inside = 0;
+      for (int i = 0; i < std::min(reach, count); ++i) inside += from.marked[at(i)];
+      for (int i = 0; i < count; ++i) {
+        if (i + reach < count) inside += from.marked[at(i + reach)];
+        to.marked[at(i)] = inside > 0 ? 1 : 0;
+        if (i - reach >= 0) inside -= from.marked[at(i - reach)];
+      }
+    }
+    return to;
+  };
+  return grow(grow(*this, columns, rows, 1, columns, across), rows, columns, columns, 1, down);
+}
+
+std::vector<PixelRect> TileMask::rectangles() const {
+  std::vector<PixelRect> all, open;  // those that end in the row above may go on
+  for (int y = 0; y < rows; ++y) {
+    std::vector<PixelRect> here;
+    auto above = open.begin();
+    const auto row = marked.begin() + static_cast<std::ptrdiff_t>(y) * columns, end = row + columns;
+    for (auto from = std::find(row, end, 1); from != end;) {
+      const auto to = std::find(from, end, 0);
+      PixelRect run{static_cast<int>(from - row), y, static_cast<int>(to - from), 1};
+      while (above != open.end() && above->x < run.x) all.push_back(*above++);
+      if (above != open.end() && above->x == run.x && above->width == run.width) {
+        run.y = above->y, run.height = above->height + 1;
+        ++above;
+      }
+      here.push_back(run);
+      from = std::find(to, end, 1);
+    }
+    all.insert(all.end(), above, open.end());
+    open = std::move(here);
+  }
+  all.insert(all.end(), open.begin(), open.end());
+  return all;
+}
+
+GlareTiles::GlareTiles(const std::string& shader_folder) : programs_("glare_tiles.frag", shader_folder) {}
+
+bool GlareTiles::find(const GlTexture& object, const PixelRect& rect, const GlareGrid& grid, float threshold) {
+  const int columns = tiles_in(grid.columns), rows = tiles_in(grid.rows);
+  if (!found_ || found_->width() != columns || found_->height() != rows)
+    found_ = std::make_unique<ColorTarget<1>>("bright tiles", GL_R8, columns, rows);
+  clear(*found_);
+  glUseProgram(programs_.with(static_cast<int>(std::ceil(GLARE_TILE * grid.texel_px))));
+  glUniform2i(0, rect.x, rect.y);
+  glUniform2i(1, rect.width, rect.height);
+  glUniform1f(2, static_cast<float>(grid.texel_px));
+  glUniform1f(3, threshold);
+  glBindTextureUnit(TEXTURE_SOURCE, object.id());
+  const PixelRect texels = grid.texels(rect, 0);
+  const int x = texels.x / GLARE_TILE, y = texels.y / GLARE_TILE;
+  draw_over(*found_, {x, y, tiles_in(texels.x + texels.width) - x, tiles_in(texels.y + texels.height) - y});
+  bright_ = {columns, rows, std::vector<std::uint8_t>(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows))};
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, found_->framebuffer());
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, columns, rows, GL_RED, GL_UNSIGNED_BYTE, bright_.marked.data());
+  for (std::uint8_t& mark : bright_.marked) mark = mark != 0 ? 1 : 0;
+  return std::find(bright_.marked.begin(), bright_.marked.end(), 1) != bright_.marked.end();
+}
+
+std::vector<PixelRect> GlareTiles::grown(int across, int down) const {
+  std::vector<PixelRect> rectangles = bright_.grown(tiles_in(across), tiles_in(down)).rectangles();
+  for (PixelRect& r : rectangles) r = {GLARE_TILE * r.x, GLARE_TILE * r.y, GLARE_TILE * r.width, GLARE_TILE * r.height};
+  return rectangles;
+}
+
+}  // namespace catchlight::render

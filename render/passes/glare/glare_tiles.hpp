@@ -1,0 +1,45 @@
+// Where on the glare grid anything is bright: tiles of GLARE_TILE texels, so that passes at the grid's own resolution draw only
+// what they must.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/gl/tap_programs.hpp"
+#include "render/glare/glare_plan.hpp"
+#include "render/passes/glare/glare_target.hpp"
+
+namespace catchlight::render {
+
+/// Tiles of a grid, row by row.
+struct TileMask {
+  int columns = 0, rows = 0;
+  std::vector<std::uint8_t> marked;  ///< 1 or 0
+
+  /// With all tiles that lie within so many tiles of one.
+  TileMask grown(int across, int down) const;
+  /// Disjoint rectangles, in tiles, of all that are marked.
+  std::vector<PixelRect> rectangles() const;
+};
+
+class GlareTiles {
+ public:
+  explicit GlareTiles(const std::string& shader_folder);
+
+  /// Finds the tiles under which a pixel of `object` (which holds the frame's pixels of `rect`) is above `threshold` in any
+  /// channel; false where there are none. Waits for the GPU.
+  bool find(const GlTexture& object, const PixelRect& rect, const GlareGrid& grid, float threshold);
+
+  /// Disjoint rectangles of texels that hold these tiles and at least so many texels around them; may lie beyond the grid's
+  /// edges.
+  std::vector<PixelRect> grown(int across, int down) const;
+
+ private:
+  TapPrograms programs_;
+  std::unique_ptr<ColorTarget<1>> found_;
+  TileMask bright_;
+};
+
+}  // namespace catchlight::render

@@ -1,0 +1,36 @@
+// Streaks: the excess smeared along several directions, falling off exponentially (Kawase, GDC 2003).
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "render/gl/tap_programs.hpp"
+#include "render/glare/glare_plan.hpp"
+#include "render/passes/glare/glare_target.hpp"
+
+namespace catchlight::render {
+
+class StreakPass {
+ public:
+  explicit StreakPass(const std::string& shader_folder);
+
+  /// Adds to `target`, over `texels`, the sum over `arms` of what their passes make of `source`: one pass after the
+  /// other. All arms have as many passes. The source, of the target's size, is black
+  /// outside of `light`.
+  void add(const GlTexture& source, const PixelRect& light, std::span<const std::vector<StreakSamples>> arms,
+           const ColorTarget<1>& target, const PixelRect& texels);
+
+ private:
+  void add_some(const GlTexture& source, const PixelRect& light, std::span<const std::vector<StreakSamples>> arms,
+                const ColorTarget<1>& target, const PixelRect& texels);
+  /// Makes a pass the current program. `down`: how far below the target's texels the source's lie; `bounds`: outside of these
+  /// texels of its the source counts as black.
+  void use(const GlTexture& source, const StreakSamples& samples, int down, const PixelRect& bounds) const;
+
+  TapPrograms straight_, slanted_;
+  /// What one pass leaves to the next: a band for each arm, one below the other, so that a pass draws them without a pause.
+  std::vector<ColorTarget<1>> between_;
+};
+
+}  // namespace catchlight::render

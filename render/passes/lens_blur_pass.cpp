@@ -1,0 +1,149 @@
+#include "render/passes/lens_blur_pass.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "render/camera/lens.hpp"
+#include "render/gl/shader.hpp"
+#include "shaders/interface.h"
+
+namespace catchlight::render {
+namespace {
+
+constexpr double kLeastMotion_px = 0.5, kLeastDefocus_px2 = 1e-6;
+constexpr double kInvisible = 1e-5;  ///< of a Gaussian's tail
+
+glm::dvec2 seen_px(const CameraModel& camera, const LensLimit& limit, const glm::dvec3& point_camera_m) {
+  const glm::dvec3 p = distorted(camera, limit, point_camera_m);
+  return {camera.fx_px * p.x / p.z + camera.cx_px, camera.fy_px * p.y / p.z + camera.cy_px};
+}
+
+void set_field(const GlProgram& program, GLint location, const MotionField& field, const PixelRect& rect) {
+  const glm::dvec2 at_corner = field.at({rect.x, rect.y});
+  glProgramUniform2f(program.id(), location, static_cast<float>(at_corner.x), static_cast<float>(at_corner.y));
+  const glm::mat2 change(field.change);
+  glProgramUniformMatrix2fv(program.id(), location + 1, 1, GL_FALSE, &change[0][0]);
+}
+
+}  // namespace
+
+MotionField fit_motion(const CameraModel& camera, const RigidTransform& camera_from_tag, const LensMotion& motion,
+                       std::span<const glm::dvec3> points_tag_m) {
+  const LensLimit limit = lens_limit(camera);
+  std::vector<glm::dvec2> places, displacements;
+  for (const glm::dvec3& point : points_tag_m) {
+    const glm::dvec3 middle = camera_from_tag * point;
+    const glm::dvec3 half = 0.5 * (glm::cross(motion.turn_rad, middle) + motion.shift_m);
+    if (!(middle.z - std::abs(half.z) > 1e-3)) continue;
+    places.push_back(seen_px(camera, limit, middle));
+    displacements.push_back(seen_px(camera, limit, middle + half) - seen_px(camera, limit, middle - half));
+  }
+  MotionField field;
+  if (places.size() < 3) return field;
+  const double share = 1.0 / static_cast<double>(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    field.origin_px += share * places[i];
+    field.displacement_px += share * displacements[i];
+  }
+  glm::dmat2 spread(0.0), together(0.0);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const glm::dvec2 off = places[i] - field.origin_px;
+    spread += share * glm::outerProduct(off, off);
+    together += share * glm::outerProduct(displacements[i], off);
+  }
+  // Points on a line do not say what changes across it.
+  const double trace = spread[0][0] + spread[1][1];
+  if (glm::determinant(spread) > 1e-6 * trace * trace) field.change = together * glm::inverse(spread);
+  return field;
+}
+
+std::vector<float> discrete_gaussian(double variance) {
+  const double t = std::clamp(variance, 0.0, kMostDefocus_px2);
+  std::vector<double> weights;
+  double sum = 0;
+  for (int n = 0; n < LENS_BLUR_TAPS && 1 - sum > kInvisible; ++n) {
+    weights.push_back(std::exp(-t) * std::cyl_bessel_i(static_cast<double>(n), t));
+    sum += weights.back() * (n == 0 ? 1 : 2);
+  }
+  std::vector<float> result;
+  for (const double weight : weights) result.push_back(static_cast<float>(weight / sum));
+  return result;
+}
+
+int LensBlurPlan::reach_px(const PixelRect& rect) const {
+  double reach = variance_px2 > 0 ? static_cast<double>(discrete_gaussian(variance_px2).size()) : 0;
+  if (!moves) return static_cast<int>(reach);
+  double longest = 0;
+  for (const MotionField& field : {object, shadow})
+    for (const double x : {rect.x, rect.x + rect.width})
+      for (const double y : {rect.y, rect.y + rect.height}) longest = std::max(longest, glm::length(field.at({x, y})));
+  return static_cast<int>(std::ceil(reach + std::min(longest, kMostMotion_px) / 2)) + 2;
+}
+
+LensBlurPlan plan_lens_blur(const FrameView& view, const glm::dvec3& box_min_m, const glm::dvec3& box_max_m) {
+  LensBlurPlan plan;
+  if (view.lens.defocus_px2 > kLeastDefocus_px2) plan.variance_px2 = std::min(view.lens.defocus_px2, kMostDefocus_px2);
+  const LensMotion& motion = view.lens.motion;
+  if (motion.turn_rad == glm::dvec3(0.0) && motion.shift_m == glm::dvec3(0.0)) return plan;
+  if (box_min_m.x > box_max_m.x) return plan;
+  std::array<glm::dvec3, 9> corners, footprint;
+  for (std::size_t i = 0; i < 9; ++i) {
+    const glm::dvec3 share = i == 8 ? glm::dvec3(0.5) : glm::dvec3(i & 1, i >> 1 & 1, i >> 2);
+    corners[i] = glm::mix(box_min_m, box_max_m, share);
+    footprint[i] = glm::dvec3(glm::dvec2(corners[i]), 0.0);
+  }
+  plan.object = fit_motion(view.camera, view.camera_from_tag, motion, corners);
+  plan.shadow = fit_motion(view.camera, view.camera_from_tag, motion, footprint);
+  plan.moves = std::max(glm::length(plan.object.displacement_px), glm::length(plan.shadow.displacement_px)) >= kLeastMotion_px;
+  return plan;
+}
+
+LensBlur::LensBlur(const std::string& shader_folder)
+    : gaussian_(make_program({.vertex = "fullscreen.vert", .fragment = "lens_gaussian.frag", .captured = {}}, shader_folder)),
+      motion_(make_program({.vertex = "fullscreen.vert", .fragment = "lens_motion.frag", .captured = {}}, shader_folder)),
+      no_attributes_(make_vertex_array("no attributes")) {}
+
+void LensBlur::draw(const GlTexture& object, const GlTexture& shadow, const PixelRect& rect) {
+  latest_ = 1 - latest_;
+  glBindFramebuffer(GL_FRAMEBUFFER, targets_[latest_]->framebuffer());
+  glViewport(0, 0, rect.width, rect.height);
+  glBindTextureUnit(TEXTURE_OBJECT, object.id());
+  glBindTextureUnit(TEXTURE_SHADOW, shadow.id());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void LensBlur::apply(const LensBlurPlan& plan, const GlTexture& object_sharp, const GlTexture& shadow_sharp,
+                     const PixelRect& rect) {
+  const int width = roomy(rect.width), height = roomy(rect.height);
+  for (auto& target : targets_)
+    if (!target || !target->fits(width, height))
+      target = std::make_unique<ColorTarget<2>>("lens blur", GL_RGBA32F, width, height);
+  reset_state();
+  glBindVertexArray(no_attributes_.id());
+  const GlTexture *from_object = &object_sharp, *from_shadow = &shadow_sharp;
+  const auto pass = [&] {
+    draw(*from_object, *from_shadow, rect);
+    from_object = &object(), from_shadow = &shadow();
+  };
+  if (plan.variance_px2 > 0) {
+    const std::vector<float> weights = discrete_gaussian(plan.variance_px2);
+    glUseProgram(gaussian_.id());
+    glProgramUniform2i(gaussian_.id(), 1, rect.width, rect.height);
+    glProgramUniform1i(gaussian_.id(), 2, static_cast<GLint>(weights.size()));
+    glProgramUniform1fv(gaussian_.id(), 3, static_cast<GLsizei>(weights.size()), weights.data());
+    for (const glm::ivec2 step : {glm::ivec2(1, 0), glm::ivec2(0, 1)}) {
+      glProgramUniform2i(gaussian_.id(), 0, step.x, step.y);
+      pass();
+    }
+  }
+  if (plan.moves) {
+    glUseProgram(motion_.id());
+    glProgramUniform2i(motion_.id(), 0, rect.width, rect.height);
+    set_field(motion_, 1, plan.object, rect);
+    set_field(motion_, 3, plan.shadow, rect);
+    pass();
+  }
+}
+
+}  // namespace catchlight::render

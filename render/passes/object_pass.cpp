@@ -1,0 +1,145 @@
+#include "render/passes/object_pass.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+
+#include "render/gl/shader.hpp"
+#include "render/passes/reflection_texture.hpp"
+#include "render/rays/skip_bvh.hpp"
+#include "shaders/interface.h"
+
+namespace catchlight::render {
+namespace {
+
+constexpr GLint kMaterialLocation = 0;
+
+/// Triangle numbers grouped by material.
+std::vector<std::size_t> triangles_by_material(const Mesh& mesh) {
+  std::vector<std::size_t> order(mesh.triangle_material.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t t) { return mesh.triangle_material[t]; });
+  return order;
+}
+
+void set_attribute(GLuint array, GLuint attribute, GLuint binding, std::size_t offset) {
+  glEnableVertexArrayAttrib(array, attribute);
+  glVertexArrayAttribFormat(array, attribute, 3, GL_FLOAT, GL_FALSE, static_cast<GLuint>(offset));
+  glVertexArrayAttribBinding(array, attribute, binding);
+}
+
+}  // namespace
+
+ObjectPass::ObjectPass(const Mesh& mesh, LitPoints vertices_lit, const ReflectionMap& reflections, const ReflectionMap& rest,
+                       const std::string& shader_folder)
+    : program_(make_program({.vertex = "object.vert", .fragment = "object.frag", .captured = {}}, shader_folder)),
+      exit_radiance_(std::move(vertices_lit)),
+      direct_light_capture_("direct_light.vert", "direct_light", shader_folder),
+      direct_light_(make_buffer("direct light", mesh.vertices.size() * sizeof(glm::vec3), nullptr)),
+      vertices_(make_buffer("object vertices", std::span<const Vertex>(mesh.vertices))),
+      vertex_array_(make_vertex_array("object")),
+      probe_(make_reflection_texture(reflections)),
+      rest_(make_reflection_texture(rest)),
+      brdf_table_(make_brdf_texture()) {
+  upload_mesh(mesh);
+  upload_materials(mesh);
+  upload_hierarchy(mesh);
+}
+
+void ObjectPass::upload_mesh(const Mesh& mesh) {
+  std::vector<std::uint32_t> indices;
+  indices.reserve(mesh.indices.size());
+  for (const std::size_t triangle : triangles_by_material(mesh)) {
+    const int material = mesh.triangle_material[triangle];
+    if (batches_.empty() || batches_.back().material != material)
+      batches_.push_back({static_cast<int>(indices.size()), 0, material});
+    indices.insert(indices.end(), &mesh.indices[3 * triangle], &mesh.indices[3 * triangle] + 3);
+    batches_.back().index_count += 3;
+  }
+  indices_ = make_buffer("object indices", std::span<const std::uint32_t>(indices));
+  const GLuint array = vertex_array_.id();
+  glVertexArrayElementBuffer(array, indices_.id());
+  glVertexArrayVertexBuffer(array, 0, vertices_.id(), 0, sizeof(Vertex));
+  glVertexArrayVertexBuffer(array, 1, exit_radiance_.radiance(), 0, sizeof(glm::vec3));
+  set_attribute(array, ATTRIBUTE_POSITION, 0, offsetof(Vertex, position_m));
+  set_attribute(array, ATTRIBUTE_NORMAL, 0, offsetof(Vertex, normal));
+  set_attribute(array, ATTRIBUTE_COLOR, 0, offsetof(Vertex, color));
+  set_attribute(array, ATTRIBUTE_EXIT_RADIANCE, 1, 0);
+}
+
+void ObjectPass::upload_materials(const Mesh& mesh) {
+  std::vector<shader_interface::SurfaceMaterial> materials;
+  for (const Material& material : mesh.materials) {
+    // Where nothing is mirrored face on, nothing is at grazing angles: f90 follows f0 below 2 % (Lagarde & de Rousiers 2014).
+    const float f90 = std::clamp(50.0f * material.dielectric_f0, 0.0f, 1.0f);
+    materials.push_back(
+        {{material.base_color, material.metallic}, {material.emissive, material.roughness}, {material.dielectric_f0, f90, 0, 0}});
+    emits_ = emits_ || material.emissive != glm::vec3(0);
+    reflects_ = reflects_ || material.metallic > 0 || material.dielectric_f0 > 0;
+  }
+  materials_ = make_buffer("materials", std::span<const shader_interface::SurfaceMaterial>(materials));
+}
+
+void ObjectPass::upload_hierarchy(const Mesh& mesh) {
+  SkipBvh bvh;
+  if (reflects_) bvh = build_skip_bvh(mesh);
+  std::vector<glm::uvec4> triangles;
+  for (const std::uint32_t triangle : bvh.triangles) {
+    const std::uint32_t* corner = &mesh.indices[3 * static_cast<std::size_t>(triangle)];
+    triangles.emplace_back(corner[0], corner[1], corner[2], mesh.triangle_material[triangle]);
+  }
+  bvh_nodes_ = make_buffer("hierarchy", std::span<const SkipNode>(bvh.nodes));
+  bvh_triangles_ = make_buffer("hierarchy's triangles", std::span<const glm::uvec4>(triangles));
+}
+
+void ObjectPass::light_by(const LightTransfer& light, const ShadowedLights& lights) {
+  exit_radiance_.evaluate(light);
+  if (lights.count() == 0 || !reflects_) return;
+  lights.bind();
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_VERTICES, vertices_.id());
+  direct_light_capture_.run(direct_light_.id(), 0, exit_radiance_.count());
+}
+
+void ObjectPass::draw_geometry() const {
+  glBindVertexArray(vertex_array_.id());
+  if (!batches_.empty()) {
+    const Batch& last = batches_.back();
+    glDrawElements(GL_TRIANGLES, last.first_index + last.index_count, GL_UNSIGNED_INT, nullptr);
+  }
+}
+
+void ObjectPass::draw(const ObjectTarget& target, const PixelRect& rect, int frame_width, int frame_height) const {
+  const float no_color[4] = {0, 0, 0, 0}, farthest = 0;
+  reset_state();
+  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
+  set_viewport(rect, frame_width, frame_height);
+  for (int i = 0; i < (target.with_layers() ? 3 : 1); ++i) glClearNamedFramebufferfv(target.framebuffer(), GL_COLOR, i, no_color);
+  glDepthMask(GL_TRUE);
+  glClearNamedFramebufferfv(target.framebuffer(), GL_DEPTH, 0, &farthest);
+
+  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_GREATER);
+  glFrontFace(GL_CW);  // the frame's top row is GL's lowest
+  glUseProgram(program_.id());
+  glBindVertexArray(vertex_array_.id());
+  glBindTextureUnit(TEXTURE_PROBE, probe_.id());
+  glBindTextureUnit(TEXTURE_BRDF, brdf_table_.id());
+  glBindTextureUnit(TEXTURE_REST, rest_.id());
+  const GLuint storage[] = {bvh_nodes_.id(),           bvh_triangles_.id(), vertices_.id(),
+                            exit_radiance_.radiance(), materials_.id(),     direct_light_.id()};
+  static_assert(BINDING_BVH_NODES == 0 && BINDING_BVH_TRIANGLES == 1 && BINDING_VERTICES == 2 && BINDING_EXIT_RADIANCE == 3 &&
+                BINDING_MATERIALS == 4 && BINDING_DIRECT_LIGHT == 5);
+  glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, std::size(storage), storage);
+  for (const Batch& batch : batches_) {
+    glUniform1i(kMaterialLocation, batch.material);
+    const auto offset = static_cast<std::uintptr_t>(batch.first_index) * sizeof(std::uint32_t);
+    glDrawElements(GL_TRIANGLES, batch.index_count, GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset));
+  }
+  glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+  glDisable(GL_DEPTH_TEST);
+  target.resolve(rect.width, rect.height);
+}
+
+}  // namespace catchlight::render

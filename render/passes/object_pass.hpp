@@ -1,0 +1,60 @@
+// Draws the object: diffuse light from its transfer, and what it mirrors of itself, the receiver and the probe; antialiased in
+// linear light.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/gl/gl_objects.hpp"
+#include "render/gl/point_capture.hpp"
+#include "render/gl/render_target.hpp"
+#include "render/mesh/mesh.hpp"
+#include "render/passes/light_transfer.hpp"
+#include "render/passes/shadowed_lights.hpp"
+#include "render/probe/prefilter.hpp"
+
+namespace catchlight::render {
+
+class ObjectPass {
+ public:
+  /// `rest`: the reflections less the lights that are split off; not used without any.
+  ObjectPass(const Mesh& mesh, LitPoints vertices_lit, const ReflectionMap& reflections, const ReflectionMap& rest,
+             const std::string& shader_folder);
+
+  /// The object's exit radiance under `light`; needed again whenever the light turns. `lights` must be up to date.
+  void light_by(const LightTransfer& light, const ShadowedLights& lights);
+
+  /// All triangles, with any program.
+  void draw_geometry() const;
+
+  /// Some material mirrors anything.
+  bool reflects() const { return reflects_; }
+  /// Some material emits light.
+  bool emits() const { return emits_; }
+
+  /// Into `target`, of which `rect` (pixels of a frame of that size) is drawn. Needs the ViewUniforms bound, and where their
+  /// options say so the receiver (ReceiverPass::bind) and the plate's light; always the lights (ShadowedLights::bind).
+  void draw(const ObjectTarget& target, const PixelRect& rect, int frame_width, int frame_height) const;
+
+ private:
+  /// Triangles of one material.
+  struct Batch {
+    int first_index, index_count, material;
+  };
+
+  void upload_mesh(const Mesh& mesh);
+  void upload_materials(const Mesh& mesh);
+  void upload_hierarchy(const Mesh& mesh);
+
+  GlProgram program_;
+  LitPoints exit_radiance_;
+  PointCapture direct_light_capture_;
+  GlBuffer direct_light_,  ///< irradiance / pi from the lights at each vertex
+      vertices_, indices_, materials_, bvh_nodes_, bvh_triangles_;
+  GlVertexArray vertex_array_;
+  GlTexture probe_, rest_, brdf_table_;
+  std::vector<Batch> batches_;
+  bool reflects_ = false, emits_ = false;
+};
+
+}  // namespace catchlight::render

@@ -1,0 +1,64 @@
+// Draws the shadow on the receiving plane as a ratio of light.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "render/gl/render_target.hpp"
+#include "render/passes/light_transfer.hpp"
+#include "render/passes/shadowed_lights.hpp"
+#include "render/transfer/transfer.hpp"
+
+namespace catchlight::render {
+
+/// Rectangle of the tag's plane: tag x, y.
+struct PlaneRect {
+  glm::vec2 min_m{0}, max_m{0};
+};
+
+/// Where samples that shine from above the plane may cast the shadow of what lies in the box (tag frame), no farther away than 16
+/// times its size. Empty (min beyond max) without any.
+PlaneRect shadow_reach(std::span<const LightSample> samples_tag, const glm::vec3& box_min_m, const glm::vec3& box_max_m);
+
+/// The light that points are lit by, in the tag frame.
+struct TagLight {
+  ShRgb whole, split_off;            ///< the second is the samples' part of the first; empty without samples
+  std::vector<LightSample> samples;  ///< as the shadow maps have them
+};
+
+class ReceiverPass {
+ public:
+  /// `transfer` must have a grid of at least 2 x 2 points.
+  ReceiverPass(const Transfer& transfer, const std::string& shader_folder);
+
+  /// The plane's irradiance under `light`, which `transfer` holds too; needed again whenever the light turns. `lights` casts the
+  /// shadows of what lies in the box.
+  void light_by(const LightTransfer& transfer, const TagLight& light, const ShadowedLights& lights, const glm::vec3& box_min_m,
+                const glm::vec3& box_max_m);
+
+  /// What may be in shadow.
+  const PlaneRect& reach() const { return reach_; }
+
+  /// For shaders that include receiver.glsl.
+  void bind() const;
+
+  /// Ratios within `rect` (pixels of a frame of that size) into `target`, 1 beside the reach. Needs the ViewUniforms bound.
+  void draw(const ColorTarget<1>& target, const PixelRect& rect, int frame_width, int frame_height) const;
+
+ private:
+  void draw_lights(const PlaneRect& rect, const ShadowedLights& lights, const glm::vec3& box_min_m, const glm::vec3& box_max_m);
+
+  ReceiverGrid grid_;
+  std::vector<float> unshadowed_;
+  GlProgram program_, lights_program_;
+  GlVertexArray no_attributes_;
+  LitPoints points_;
+  GlTexture irradiance_;
+  std::unique_ptr<ColorTarget<1>> light_;  ///< irradiance / pi of the lights; none without any
+  PlaneRect reach_;
+  shader_interface::ReceiverUniforms block_{};
+  UniformBuffer<shader_interface::ReceiverUniforms> uniforms_{"receiver"};
+};
+
+}  // namespace catchlight::render

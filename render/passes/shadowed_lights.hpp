@@ -1,0 +1,44 @@
+// The lights split off the probe on the GPU: their samples, and a shadow map for each.
+#pragma once
+
+#include <functional>
+#include <glm/glm.hpp>
+#include <span>
+#include <string>
+
+#include "render/gl/gl_objects.hpp"
+#include "render/probe/light_samples.hpp"
+#include "shaders/interface.h"
+
+namespace catchlight::render {
+
+/// Middle and radius of all that casts shadows, tag frame.
+struct BoundingSphere {
+  glm::vec3 middle_m{0};
+  float radius_m = 0;
+};
+
+class ShadowedLights {
+ public:
+  /// For `samples` of them, at most MAX_LIGHT_SAMPLES; none is possible too.
+  ShadowedLights(int samples, const BoundingSphere& object, const std::string& shader_folder);
+
+  /// Takes over the samples (tag frame; as many as said) and draws their maps; `draw_object` draws all triangles with their
+  /// positions as ATTRIBUTE_POSITION. Needed again only when the light turns.
+  void update(std::span<const LightSample> samples_tag, const std::function<void()>& draw_object);
+
+  int count() const { return count_; }
+  /// For shaders that include lights.glsl.
+  void bind() const;
+
+ private:
+  int count_;
+  BoundingSphere object_;
+  int map_texels_;
+  GlProgram program_;
+  GlTexture maps_;
+  GlFramebuffer framebuffer_;
+  UniformBuffer<shader_interface::LightSampleUniforms> uniforms_{"light samples"};
+};
+
+}  // namespace catchlight::render

@@ -1,0 +1,59 @@
+// From the composite's linear light to codes: metering, tone curve, the footage's response. Over the whole frame.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/compositor.hpp"
+#include "render/gl/render_target.hpp"
+#include "render/passes/glare/classic_glare.hpp"
+#include "render/tone/tone_curve.hpp"
+
+namespace catchlight::render {
+
+/// Counts luminances on the GPU. Whole numbers are added, so that the result is the same to the bit whatever the order.
+class ToneMeter {
+ public:
+  explicit ToneMeter(const std::string& shader_folder);
+
+  /// Of the first width x height texels of `light`. A pixel with a NaN counts for nothing, an infinite one as 2^32. Waits for the
+  /// GPU.
+  LuminanceHistogram measure(const GlTexture& light, int width, int height, const glm::dvec3& luminance_weights);
+
+ private:
+  GlProgram program_;
+  GlVertexArray no_attributes_;
+  GlBuffer bins_;
+  GlFramebuffer nothing_;  ///< no attachments: the shader only counts
+};
+
+class TonePass {
+ public:
+  TonePass(const CompositorSettings& settings, const std::string& shader_folder);
+
+  /// What the composite (linear light, frame in its first texels) calls for.
+  ToneCurve meter(const GlTexture& light, int width, int height, const PlateColor& color);
+
+  /// Bloom and streaks of the classic look, where it is chosen.
+  void draw_glare(const GlTexture& light, int width, int height);
+
+  /// Codes by the response of the CompositeUniforms that are bound.
+  void draw(const GlTexture& light, int width, int height, const PlateColor& color, const ToneCurve& curve);
+
+  /// RGBA of the last draw; alpha is 1.
+  std::vector<float> read() const;
+
+ private:
+  ToneSettings settings_;
+  GlareSettings glare_;
+  ToneMeter meter_;
+  std::unique_ptr<ClassicLook> classic_;  ///< null: another look, or no glare
+  GlProgram program_;
+  GlVertexArray no_attributes_;
+  GlTexture black_;
+  std::unique_ptr<ColorTarget<1>> output_;
+  int width_ = 0, height_ = 0;
+};
+
+}  // namespace catchlight::render

@@ -1,0 +1,34 @@
+// Rays against a mesh (Embree). Safe to ask from many threads.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+
+#include "render/mesh/mesh.hpp"
+
+namespace catchlight::render {
+
+struct RayHit {
+  std::uint32_t triangle = 0;
+  float u = 0, v = 0;        ///< barycentric weights of corners 1 and 2
+  bool front_facing = true;  ///< seen from the side where the corners wind counter-clockwise
+};
+
+class RayScene {
+ public:
+  /// Keeps a reference to `mesh`. Throws Error where memory runs out.
+  explicit RayScene(const Mesh& mesh);
+  ~RayScene();
+
+  /// Anything at all, on either side of its faces, along the ray to infinity.
+  bool occluded(const glm::vec3& origin_m, const glm::vec3& direction) const;
+  std::optional<RayHit> closest_hit(const glm::vec3& origin_m, const glm::vec3& direction) const;
+
+ private:
+  struct Handles;
+  const Mesh& mesh_;
+  std::unique_ptr<Handles> handles_;
+};
+
+}  // namespace catchlight::render

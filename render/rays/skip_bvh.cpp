@@ -1,0 +1,109 @@
+#include "render/rays/skip_bvh.hpp"
+
+#include <embree3/rtcore.h>
+
+#include <memory>
+#include <new>
+#include <span>
+
+namespace catchlight::render {
+namespace {
+
+constexpr unsigned kLeafTriangles = 4;
+
+/// What Embree's builder makes; lives in its thread-local memory.
+struct BuildNode {
+  BuildNode* children[2] = {};
+  std::uint32_t primitives[kLeafTriangles] = {};
+  unsigned count = 0;  ///< of a leaf
+};
+
+BuildNode* make_node(RTCThreadLocalAllocator allocator) {
+  return new (rtcThreadLocalAlloc(allocator, sizeof(BuildNode), alignof(BuildNode))) BuildNode;
+}
+
+void* create_inner(RTCThreadLocalAllocator allocator, unsigned, void*) {
+  return make_node(allocator);
+}
+
+void set_children(void* node, void** children, unsigned count, void*) {
+  for (unsigned i = 0; i < count; ++i) static_cast<BuildNode*>(node)->children[i] = static_cast<BuildNode*>(children[i]);
+}
+
+void set_bounds(void*, const RTCBounds**, unsigned, void*) {}  // flatten() has them from the triangles
+
+void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives, std::size_t count, void*) {
+  BuildNode* leaf = make_node(allocator);
+  leaf->count = static_cast<unsigned>(count);
+  for (std::size_t i = 0; i < count; ++i) leaf->primitives[i] = primitives[i].primID;
+  return leaf;
+}
+
+struct Bounds {
+  glm::vec3 min_m, max_m;
+};
+
+Bounds triangle_bounds(const Mesh& mesh, std::size_t triangle) {
+  const std::uint32_t* corner = &mesh.indices[3 * triangle];
+  const glm::vec3 a = mesh.vertices[corner[0]].position_m, b = mesh.vertices[corner[1]].position_m,
+                  c = mesh.vertices[corner[2]].position_m;
+  return {glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))};
+}
+
+/// Depth first; boxes are taken from the triangles themselves.
+Bounds flatten(const BuildNode& node, const Mesh& mesh, SkipBvh& bvh) {
+  const std::size_t index = bvh.nodes.size();
+  bvh.nodes.emplace_back();
+  Bounds bounds{glm::vec3(1e30f), glm::vec3(-1e30f)};
+  const auto include = [&bounds](const Bounds& other) {
+    bounds = {glm::min(bounds.min_m, other.min_m), glm::max(bounds.max_m, other.max_m)};
+  };
+  std::uint32_t triangles = 0;
+  if (node.count > 0) {
+    triangles = static_cast<std::uint32_t>(bvh.triangles.size()) * 8 + node.count;
+    for (const std::uint32_t triangle : std::span(node.primitives, node.count)) {
+      bvh.triangles.push_back(triangle);
+      include(triangle_bounds(mesh, triangle));
+    }
+  } else {
+    for (const BuildNode* child : node.children)
+      if (child) include(flatten(*child, mesh, bvh));
+  }
+  bvh.nodes[index] = {bounds.min_m, triangles, bounds.max_m, static_cast<std::uint32_t>(bvh.nodes.size())};
+  return bounds;
+}
+
+std::vector<RTCBuildPrimitive> primitives_of(const Mesh& mesh) {
+  std::vector<RTCBuildPrimitive> primitives(mesh.indices.size() / 3);
+  for (std::size_t i = 0; i < primitives.size(); ++i) {
+    const Bounds bounds = triangle_bounds(mesh, i);
+    primitives[i] = {bounds.min_m.x, bounds.min_m.y, bounds.min_m.z, 0,
+                     bounds.max_m.x, bounds.max_m.y, bounds.max_m.z, static_cast<unsigned>(i)};
+  }
+  return primitives;
+}
+
+}  // namespace
+
+SkipBvh build_skip_bvh(const Mesh& mesh) {
+  SkipBvh result;
+  std::vector<RTCBuildPrimitive> primitives = primitives_of(mesh);
+  if (primitives.empty()) return result;
+  const std::unique_ptr<RTCDeviceTy, void (*)(RTCDevice)> device(rtcNewDevice("threads=1"), rtcReleaseDevice);
+  const std::unique_ptr<RTCBVHTy, void (*)(RTCBVH)> bvh(rtcNewBVH(device.get()), rtcReleaseBVH);
+  RTCBuildArguments arguments = rtcDefaultBuildArguments();
+  arguments.bvh = bvh.get();
+  arguments.maxLeafSize = kLeafTriangles;
+  arguments.primitives = primitives.data();
+  arguments.primitiveCount = arguments.primitiveArrayCapacity = primitives.size();
+  arguments.createNode = create_inner;
+  arguments.setNodeChildren = set_children;
+  arguments.setNodeBounds = set_bounds;
+  arguments.createLeaf = create_leaf;
+  const auto* root = static_cast<const BuildNode*>(rtcBuildBVH(&arguments));
+  if (!root) throw Error("no memory for the hierarchy of " + std::to_string(primitives.size()) + " triangles");
+  flatten(*root, mesh, result);
+  return result;
+}
+
+}  // namespace catchlight::render

@@ -1,0 +1,89 @@
+#include "render/tone/tone_curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "catchlight.hpp"
+
+namespace catchlight::render {
+namespace {
+
+/// Half the light of sRGB's first code of 8 bits: darker than this, footage tells nothing.
+constexpr double kDarkest = 0.5 / 255 / 12.92;
+constexpr double kDeltaShare = 1e-3;
+constexpr double kLowShare = 0.01, kHighShare = 0.99;
+constexpr double kMostGain = 64;
+/// Beyond it light is not told apart; shaders/tone.frag has the same.
+constexpr double kMostLight = 1e9;
+
+double percentile(const LuminanceHistogram& histogram, double pixels, double share) {
+  double passed = 0;
+  for (int bin = 0; bin < LuminanceHistogram::kBins; ++bin) {
+    passed += histogram.bins[static_cast<std::size_t>(bin)].count;
+    if (passed > 0 && passed >= share * pixels) return histogram.mean(bin);
+  }
+  return 0;
+}
+
+}  // namespace
+
+double LuminanceHistogram::mean(int bin) const {
+  if (bin == 0) return 0;
+  const Bin& counted = bins[static_cast<std::size_t>(bin)];
+  const double rest = (counted.rest_high * 0x1p32 + counted.rest_low) / counted.count;
+  const int octave = (bin - 1) / 64 - 32;
+  return std::ldexp(1 + ((bin - 1) % 64 + rest * 0x1p-17) / 64, octave);
+}
+
+SceneLuminance scene_luminance(const LuminanceHistogram& histogram) {
+  double pixels = 0;
+  for (const LuminanceHistogram::Bin& bin : histogram.bins) pixels += bin.count;
+  if (pixels == 0) return {};
+  SceneLuminance result;
+  result.low = percentile(histogram, pixels, kLowShare);
+  result.high = percentile(histogram, pixels, kHighShare);
+  const double delta = kDeltaShare * std::max(result.high, kDarkest);
+  double log_sum = 0;
+  for (int bin = 0; bin < LuminanceHistogram::kBins; ++bin)
+    if (const double count = histogram.bins[static_cast<std::size_t>(bin)].count; count > 0)
+      log_sum += count * std::log(delta + histogram.mean(bin));
+  result.average = std::max(std::exp(log_sum / pixels) - delta, 0.0);
+  return result;
+}
+
+double ToneCurve::operator()(double luminance) const {
+  const double exposed = gain * luminance;
+  return exposed * (1 + exposed / (white * white)) / (1 + exposed);
+}
+
+glm::dvec3 ToneCurve::operator()(const glm::dvec3& rgb_linear, const glm::dvec3& weights, bool codes_end_at_1) const {
+  glm::dvec3 light(0.0);
+  for (int c = 0; c < 3; ++c)
+    if (!std::isnan(rgb_linear[c])) light[c] = std::clamp(rgb_linear[c], -kMostLight, kMostLight);
+  const double exposed = gain * std::max(glm::dot(weights, light), 0.0);
+  light *= gain * (1 + exposed / (white * white)) / (1 + exposed);
+  const double luminance = glm::dot(weights, light), peak = std::max({light.r, light.g, light.b});
+  if (codes_end_at_1 && peak > 1)
+    light = luminance >= 1 ? glm::dvec3(1.0) : glm::mix(glm::dvec3(luminance), light, (1 - luminance) / (peak - luminance));
+  return light;
+}
+
+ToneCurve tone_curve(const SceneLuminance& luminance, const ToneSettings& settings) {
+  ToneCurve curve;
+  curve.gain = std::min(settings.key / luminance.average, kMostGain);
+  if (!settings.has_white_point) {
+    curve.white = std::numeric_limits<double>::infinity();
+    return curve;
+  }
+  const double stops = std::log2(std::max(luminance.high, kDarkest) / std::max(luminance.low, kDarkest));
+  const double estimate = 1.5 * std::exp2(stops - 5);
+  curve.white = std::max(std::min(estimate, curve.gain * luminance.high), 1.0);
+  return curve;
+}
+
+glm::dvec3 luminance_weights(const glm::mat3& plate_from_rec709) {
+  return kLuminanceWeights * glm::inverse(glm::dmat3(plate_from_rec709));
+}
+
+}  // namespace catchlight::render

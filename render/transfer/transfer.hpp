@@ -1,0 +1,63 @@
+// Precomputed radiance transfer (Sloan, Kautz & Snyder 2002): how much of each SH lighting coefficient leaves each vertex of the
+// object, and arrives at each point of the receiver, with shadows and interreflection. Baked with Embree; no GL.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "catchlight.hpp"
+#include "render/mesh/mesh.hpp"
+#include "render/transfer/receiver_albedo.hpp"
+#include "render/transfer/receiver_grid.hpp"
+
+namespace catchlight::render {
+
+struct TransferOptions {
+  int bands = 6;
+  int rays = 512;   ///< a vertex, over the hemisphere
+  int bounces = 0;  ///< interreflections within the object, and between it and the receiver
+  /// Of the receiver, where `bounces` and a grid are given: its light then reaches the object from its true place, darkened by
+  /// the object, and only what lies above the plane counts as sky. Unknown: what is below is lit and as far away as the sky.
+  ReceiverAlbedo receiver_albedo = {};
+  std::uint32_t seed = 1;
+  int threads = 0;  ///< 0: all cores. The result does not depend on it.
+};
+
+/// All in the tag frame. Vertex v's exit radiance per channel = sum_i light_i * object[v * n^2 + i]: albedo (of the diffuse part)
+/// included. Receiver point p's irradiance relative to the unshadowed one = dot(light, receiver[p]) / dot(light,
+/// receiver_unshadowed): that ratio multiplies the real surface (Debevec 1998); receiver values are normalised for a white
+/// (albedo 1) surface.
+struct Transfer {
+  int bands = 0;
+  std::vector<glm::vec3> object;         ///< vertices * bands^2
+  std::vector<glm::vec3> object_direct;  ///< the part of it that met no other surface
+  ReceiverGrid grid;
+  std::vector<glm::vec3> receiver;         ///< rows * columns * bands^2, row-major from min
+  std::vector<glm::vec3> receiver_direct;  ///< the part of it that met no other surface
+  std::vector<float> receiver_unshadowed;  ///< bands^2, the closed form for normal +z
+};
+
+/// `mesh_tag` is in the tag frame. Values are the closed form of the open hemisphere less the occluded rays, so exact where
+/// nothing is in the way. Faces block light from either side, and send it back (with bounces) from their front. Where the
+/// receiver's albedo is known, vertices below its plane (a sunk object) are lit as if on it. Rays follow the vertex normal's
+/// hemisphere: where that dips into the solid they are blocked. The receiver's shadow fades to nothing over the grid's outer 4
+/// cells; points covered by the object take their neighbours' values. Throws Error for a mesh without triangles or options out of
+/// range (1 to 10 bands, 1 ray or more).
+Transfer bake_transfer(const Mesh& mesh_tag, const ReceiverGrid& grid, const TransferOptions& options,
+                       const ProgressHandler& progress);
+
+/// Key of everything the bake depends on (geometry, materials, grid, options, format version): a hexadecimal string.
+std::string transfer_key(const Mesh& mesh_tag, const ReceiverGrid& grid, const TransferOptions& options);
+
+/// bake_transfer behind a cache folder (default: $XDG_CACHE_HOME/catchlight). A damaged or foreign cache file is baked anew;
+/// an unwritable folder only costs a warning. `cache_hit` (optional) says whether it was read.
+Transfer load_or_bake_transfer(const Mesh& mesh_tag, const ReceiverGrid& grid, const TransferOptions& options,
+                               const std::string& cache_folder, const ProgressHandler& progress, const WarningHandler& warn,
+                               bool* cache_hit = nullptr);
+
+/// $XDG_CACHE_HOME/catchlight or ~/.cache/catchlight.
+std::string default_cache_folder();
+
+}  // namespace catchlight::render

@@ -1,0 +1,307 @@
+// What is measured of the camera's lens and sensor, in rendered frames whose noise and blur are known.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <random>
+
+#include "app/photometry/lens_blur.hpp"
+#include "app/photometry/lens_noise.hpp"
+#include "app/photometry/lens_view.hpp"
+#include "app/session/frame_track.hpp"
+#include "tests/support/media_fixture.hpp"
+#include "tests/support/synthetic_tag.hpp"
+
+namespace catchlight::app {
+namespace {
+
+using testing::noise_frame;
+using tracking::SyntheticScene;
+
+CameraModel camera() {
+  return {320, 240, 600, 600, 159.5, 119.5, {}};
+}
+
+tracking::TagTarget target() {
+  return {{"tag36h11", 5, 0.08}, {}};
+}
+
+/// The tag some 160 px large.
+SyntheticScene scene() {
+  SyntheticScene scene{camera(), {}};
+  scene.tags = {{target(), tracking::tag_pose(camera(), {160, 120}, 0.3, {20, 15, 10})}};
+  return scene;
+}
+
+TrackRow row_of(const SyntheticScene& scene) {
+  TrackRow row;
+  row.found = true;
+  row.state = tracking::TrackState::tracking;
+  row.camera_from_tag = scene.tags[0].camera_from_tag;
+  row.blur_px2 = {0.5, 0, 0.5};
+  row.noise_codes = 1;
+  return row;
+}
+
+/// RGB of a grey scene with independent noise of that variance in each channel.
+Frame noisy_frame(const SyntheticScene& scene, const glm::dvec3& slope, double floor, unsigned seed) {
+  const std::vector<float> light = tracking::render(scene).linear;
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  FramePtr picture = noise_frame(AV_PIX_FMT_RGB24, 320, 240, 1);
+  for (int y = 0; y < 240; ++y)
+    for (int x = 0; x < 320; ++x)
+      for (int c = 0; c < 3; ++c) {
+        const double i = light[static_cast<std::size_t>(y * 320 + x)];
+        const double code = srgb_from_linear(i + std::sqrt(slope[c] * i + floor) * normal(random));
+        picture->data[0][y * picture->linesize[0] + 3 * x + c] =
+            static_cast<std::uint8_t>(std::lround(255 * std::clamp(code, 0.0, 1.0)));
+      }
+  return {std::shared_ptr<const AVFrame>(std::move(picture)), static_cast<std::int64_t>(seed), 0};
+}
+
+NoiseModel measured(const glm::dvec3& slope, double floor, int frames = 4) {
+  NoiseMeter meter(camera(), target());
+  for (int i = 1; i <= frames; ++i) meter.add(noisy_frame(scene(), slope, floor, static_cast<unsigned>(i)), row_of(scene()));
+  return meter.model();
+}
+
+TEST(NoiseMeter, FindsTheVarianceOfEachChannelWithinATwentieth) {
+  const glm::dvec3 slope(2e-4, 3e-4, 5e-4);
+  const NoiseModel model = measured(slope, 2e-6);
+  for (int c = 0; c < 3; ++c)
+    for (const double light : {0.03, 0.2, 0.6})
+      EXPECT_NEAR((model.slope[c] * light + model.floor[c]) / (slope[c] * light + 2e-6), 1, 0.05) << c << " at " << light;
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(model.correlation[i], 0, 0.05);
+}
+
+TEST(NoiseMeter, RoundingAloneIsNoNoise) {
+  const NoiseModel model = measured(glm::dvec3(0), 0, 2);
+  EXPECT_LT(noise_codes(model, render::PlateColor{}, 0.5), 0.25);
+  const SceneSettings::Lens lens;
+  TrackRow row;
+  row.noise = model;
+  const Frame frame = noisy_frame(scene(), glm::dvec3(0), 0, 1);
+  EXPECT_FALSE(lens_view(lens, row, frame, {}).noise.enabled);
+  row.noise.slope = glm::dvec3(3e-4);
+  EXPECT_TRUE(lens_view(lens, row, frame, {}).noise.enabled);
+}
+
+TEST(NoiseMeter, SmallTagsSayNothing) {
+  SyntheticScene far = scene();
+  far.tags[0].camera_from_tag = tracking::tag_pose(camera(), {160, 120}, 2.4, {0, 0, 0});
+  NoiseMeter meter(camera(), target());
+  meter.add(noisy_frame(far, glm::dvec3(3e-4), 0, 1), row_of(far));
+  EXPECT_FALSE(meter.model().is_measured());
+}
+
+TEST(NoiseMeter, AStainOnACellIsLeftOut) {
+  const glm::dvec3 slope(3e-4);
+  Frame frame = noisy_frame(scene(), slope, 0, 1);
+  const auto& picture = const_cast<AVFrame&>(frame.picture());
+  for (int y = 60; y < 85; ++y)  // a striped sticker over a corner of the print
+    for (int x = 100; x < 130; ++x)
+      if (y % 2) std::fill_n(picture.data[0] + y * picture.linesize[0] + 3 * x, 3, std::uint8_t{120});
+  NoiseMeter meter(camera(), target());
+  meter.add(frame, row_of(scene()));
+  EXPECT_NEAR(meter.model().slope.g / 3e-4, 1, 0.1);
+}
+
+/// Toner leaves streaks, which no grain has.
+TEST(NoiseMeter, StreaksOfThePrintAreNoGrain) {
+  const glm::dvec3 slope(1e-4);
+  const auto seen = [&](double streak_codes) {
+    NoiseMeter meter(camera(), target());
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+      Frame frame = noisy_frame(scene(), slope, 2e-6, seed);
+      const auto& picture = const_cast<AVFrame&>(frame.picture());
+      for (int y = 0; y < 240; ++y)
+        for (int x = 0; x < 3 * 320; ++x) {
+          std::uint8_t& code = picture.data[0][y * picture.linesize[0] + x];
+          if (code < 80) code = static_cast<std::uint8_t>(std::lround(code + streak_codes * std::sin(x / 3 * 2 * M_PI / 9)));
+        }
+      meter.add(frame, row_of(scene()));
+    }
+    return meter.model();
+  };
+  const NoiseModel plain = seen(0), streaked = seen(10);
+  const auto deviation = [](const NoiseModel& model, double light) { return std::sqrt(model.slope.g * light + model.floor.g); };
+  EXPECT_NEAR(deviation(streaked, 0.6) / deviation(plain, 0.6), 1, 0.1);
+  EXPECT_LT(deviation(streaked, 0.03) / deviation(plain, 0.03), std::sqrt(3) * 1.05) << "3.7 without";
+}
+
+/// Luma of 4:2:0 footage is noisy and its chroma, after the codec, is not.
+TEST(NoiseMeter, LumaNoiseAloneIsTheSameInAllChannels) {
+  const Frame rgb = noisy_frame(scene(), glm::dvec3(3e-4), 0, 1);
+  FramePtr picture = noise_frame(AV_PIX_FMT_YUV420P, 320, 240, 1);
+  picture->color_range = AVCOL_RANGE_JPEG;
+  picture->colorspace = AVCOL_SPC_BT709;
+  for (int y = 0; y < 240; ++y)
+    for (int x = 0; x < 320; ++x)
+      picture->data[0][y * picture->linesize[0] + x] = rgb.picture().data[0][y * rgb.picture().linesize[0] + 3 * x];
+  for (int plane : {1, 2})
+    for (int y = 0; y < 120; ++y) std::fill_n(picture->data[plane] + y * picture->linesize[plane], 160, std::uint8_t{128});
+  NoiseMeter meter(camera(), target());
+  meter.add({std::shared_ptr<const AVFrame>(std::move(picture)), 0, 0}, row_of(scene()));
+  const NoiseModel model = meter.model();
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(model.slope[c] / 3e-4, 1, 0.1) << c;
+  for (int i = 0; i < 3; ++i) EXPECT_GT(model.correlation[i], 0.97);
+  const glm::dmat3 mix = noise_mix(model);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(mix[2][c], 1, 0.02) << "all of it is the pixel's own";
+}
+
+TEST(NoiseMix, HasTheCorrelationsItIsMadeFrom) {
+  for (const glm::dvec3 correlation : {glm::dvec3(0), glm::dvec3(0.6, 0.4, 0.5), glm::dvec3(-0.2, 0.1, 0.3), glm::dvec3(1)}) {
+    const NoiseModel noise{{2e-4, 3e-4, 1e-4}, {1e-6, 0, 2e-6}, correlation};
+    const glm::dmat3 mix = noise_mix(noise), together = mix * glm::transpose(mix);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(together[c][c], 1, 1e-9);
+    if (correlation.x == 1) continue;  // one noise of three strengths is not luma alone, and its colour would be the pixel's
+    EXPECT_NEAR(together[0][1], correlation.x, 0.01);
+    EXPECT_NEAR(together[0][2], correlation.y, 0.01);
+    EXPECT_NEAR(together[1][2], correlation.z, 0.01);
+  }
+}
+
+// --- blur ---------------------------------------------------------------------------------------------------------------
+
+/// A camera that swings to and fro over the tag.
+std::vector<TrackRow> swinging(int frames) {
+  std::vector<TrackRow> rows;
+  for (int i = 0; i < frames; ++i) {
+    TrackRow row = row_of(scene());
+    row.frame = i;
+    row.camera_from_tag =
+        tracking::tag_pose(camera(), {160 + 20 * std::sin(0.4 * i), 120 + 12 * std::sin(0.27 * i)}, 0.3, {20, 15, 10});
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+/// With the blur that focus and shutter make, and errors of that size.
+std::vector<TrackRow> blurred(std::vector<TrackRow> rows, double focus_px2, double shutter, double error_px2) {
+  std::vector<TrackRow> measured = rows;
+  measure_lens_blur(measured, camera(), 0.08);
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal(0, error_px2);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const tracking::Covariance2 m = motion_covariance(camera(), rows[i].camera_from_tag, measured[i].lens_blur.motion, 0.08);
+    const double s2 = shutter * shutter;
+    rows[i].blur_px2 = {focus_px2 + s2 * m.xx + normal(random), s2 * m.xy + normal(random),
+                        focus_px2 + s2 * m.yy + normal(random)};
+  }
+  return rows;
+}
+
+TEST(LensBlur, ShutterAndFocusAreTakenApart) {
+  for (const double shutter : {0.25, 0.5, 1.0}) {
+    std::vector<TrackRow> rows = blurred(swinging(60), 0.7, shutter, 0.05);
+    measure_lens_blur(rows, camera(), 0.08);
+    for (const TrackRow& row : rows) {
+      EXPECT_NEAR(row.lens_blur.shutter / shutter, 1, 0.05);
+      EXPECT_NEAR(row.lens_blur.focus_px2 / 0.7, 1, 0.1);
+    }
+  }
+}
+
+TEST(LensBlur, AFastShutterShowsNone) {
+  std::vector<TrackRow> rows = blurred(swinging(60), 0.7, 0, 0.05);
+  measure_lens_blur(rows, camera(), 0.08);
+  EXPECT_EQ(rows[30].lens_blur.shutter, 0);
+  EXPECT_NEAR(rows[30].lens_blur.focus_px2, 0.7, 0.07);
+}
+
+TEST(LensBlur, AFewWrongFramesDoNotDecide) {
+  std::vector<TrackRow> rows = blurred(swinging(60), 0.7, 0.5, 0.03);
+  for (const std::size_t i : {11, 23, 37}) rows[i].blur_px2 = {12, -5, 3};
+  measure_lens_blur(rows, camera(), 0.08);
+  EXPECT_NEAR(rows[0].lens_blur.shutter, 0.5, 0.05);
+  EXPECT_NEAR(rows[23].lens_blur.focus_px2, 0.7, 0.1);
+}
+
+TEST(LensBlur, LiveRowsKnowThePastAlone) {
+  const std::vector<TrackRow> rows = blurred(swinging(60), 0.7, 0.5, 0.02);
+  LensBlurMeter all(camera(), 0.08), first_half(camera(), 0.08);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    TrackRow a = rows[i], b = rows[i];
+    all.add(a);
+    if (i >= 40) continue;
+    first_half.add(b);
+    EXPECT_EQ(a.lens_blur.shutter, b.lens_blur.shutter);
+    EXPECT_EQ(a.lens_blur.focus_px2, b.lens_blur.focus_px2);
+  }
+  TrackRow last = rows.back();
+  last.frame = 60;
+  all.add(last);
+  EXPECT_NEAR(last.lens_blur.shutter, 0.5, 0.1);
+}
+
+/// From pictures: frames averaged over the shutter, tracked, and taken apart.
+TEST(LensBlur, ARenderedShutterIsMeasuredWithinATenth) {
+  constexpr double kShutter = 0.6;
+  SceneSettings settings;
+  settings.tag.id = 5;
+  PathTrack track(camera(), settings);
+  for (int i = 0; i < 16; ++i) {
+    constexpr int kSteps = 9;
+    std::vector<float> light(320 * 240, 0.0f);
+    for (int k = 0; k < kSteps; ++k) {
+      const double t = i + kShutter * ((k + 0.5) / kSteps - 0.5);
+      SyntheticScene moving = scene();
+      moving.tags[0].camera_from_tag =
+          tracking::tag_pose(camera(), {160 + 30 * std::sin(0.3 * t), 120 + 8 * std::sin(0.2 * t)}, 0.5, {20, 15, 10});
+      const std::vector<float> one = tracking::render(moving).linear;
+      for (std::size_t p = 0; p < light.size(); ++p) light[p] += one[p] / kSteps;
+    }
+    const std::vector<std::uint8_t> codes = tracking::expose(light, 0.7, static_cast<unsigned>(i));
+    FramePtr picture = noise_frame(AV_PIX_FMT_RGB24, 320, 240, 1);
+    for (int y = 0; y < 240; ++y)
+      for (int x = 0; x < 320; ++x)
+        std::fill_n(picture->data[0] + y * picture->linesize[0] + 3 * x, 3, codes[static_cast<std::size_t>(y * 320 + x)]);
+    track.add({std::shared_ptr<const AVFrame>(std::move(picture)), i, i / 30.0});
+  }
+  const std::vector<TrackRow> rows = track.solve();
+  EXPECT_NEAR(rows[8].lens_blur.shutter / kShutter, 1, 0.1);
+  // The lens's Gaussian of 0.6 px and the pixel's own square.
+  EXPECT_NEAR(rows[8].lens_blur.focus_px2 / (0.36 + 1.0 / 12), 1, 0.1);
+}
+
+TEST(LensView, EverythingCanBeSwitchedOffAlone) {
+  TrackRow row;
+  row.noise = {glm::dvec3(3e-4), glm::dvec3(0), glm::dvec3(0)};
+  row.lens_blur = {{{0.01, 0, 0}, {0.02, 0, 0}}, 0.5, 1.0};
+  const Frame frame = noisy_frame(scene(), glm::dvec3(0), 0, 1);
+  const glm::dvec3 vignetting(-0.2, 0, 0);
+  const render::LensView all = lens_view({}, row, frame, vignetting);
+  EXPECT_TRUE(all.noise.enabled);
+  EXPECT_NEAR(all.defocus_px2, 1 - 1.0 / 12, 1e-12);
+  EXPECT_EQ(all.motion.shift_m.x, 0.01);
+  EXPECT_EQ(all.vignetting, vignetting);
+  SceneSettings::Lens lens;
+  lens.noise = Switch::off;
+  EXPECT_FALSE(lens_view(lens, row, frame, vignetting).noise.enabled);
+  EXPECT_GT(lens_view(lens, row, frame, vignetting).defocus_px2, 0);
+  lens = {}, lens.defocus = Switch::off;
+  EXPECT_EQ(lens_view(lens, row, frame, vignetting).defocus_px2, 0);
+  lens = {}, lens.motion_blur = Switch::off;
+  EXPECT_EQ(lens_view(lens, row, frame, vignetting).motion.shift_m, glm::dvec3(0));
+  lens = {}, lens.vignetting = Switch::off;
+  EXPECT_EQ(lens_view(lens, row, frame, vignetting).vignetting, glm::dvec3(0));
+  lens = {}, lens.shutter = 0.25;
+  EXPECT_EQ(lens_view(lens, row, frame, vignetting).motion.shift_m.x, 0.005);
+}
+
+TEST(LensView, NothingMeasuredIsNothingAddedAndThePlanSaysWhy) {
+  const Frame frame = noisy_frame(scene(), glm::dvec3(0), 0, 1);
+  const render::LensView none = lens_view({}, TrackRow{}, frame, {});
+  EXPECT_FALSE(none.noise.enabled);
+  EXPECT_EQ(none.defocus_px2, 0);
+  EXPECT_EQ(none.motion.shift_m, glm::dvec3(0));
+  const std::vector<PlanEntry> plan = lens_plan({}, {TrackRow{}}, frame, {});
+  ASSERT_EQ(plan.size(), 5u);
+  for (const PlanEntry& entry : plan) {
+    EXPECT_EQ(entry.value, "off") << entry.choice;
+    EXPECT_THAT(entry.reason, ::testing::Not(::testing::IsEmpty()));
+  }
+}
+
+}  // namespace
+}  // namespace catchlight::app

@@ -1,0 +1,206 @@
+#include "app/session/recording.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "tests/support/temporary_folder.hpp"
+
+namespace catchlight::app {
+namespace {
+
+using ::testing::HasSubstr;
+using tests::message_of;
+using tests::TemporaryFolder;
+
+constexpr const char* kCamera =
+    "%YAML:1.0\n---\nimage_width: 640\nimage_height: 480\n"
+    "camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   data: [ 600., 0., 319.5, 0., 600., 239.5, 0., 0., 1. "
+    "]\n"
+    "distortion_coefficients: !!opencv-matrix\n   rows: 1\n   cols: 5\n   dt: d\n   data: [ 0., 0., 0., 0., 0. ]\n";
+
+/// A folder with all that a recording needs; the footage is never opened here.
+struct RecordingFolder : TemporaryFolder {
+  RecordingFolder() {
+    write("video.mp4", "");
+    write("camera.yaml", kCamera);
+    write("scene.toml", "[tag]\nid = 5\nsize_m = 0.1\n");
+  }
+};
+
+RecordingOverrides with(std::vector<std::pair<std::string, std::string>> values) {
+  RecordingOverrides overrides;
+  overrides.parameters = std::move(values);
+  return overrides;
+}
+
+TEST(RecordingFolder, HasFootageCameraAndScene) {
+  const RecordingFolder folder;
+  const Recording recording = open_recording(folder.path());
+  EXPECT_EQ(recording.footage, folder.path("video.mp4"));
+  EXPECT_EQ(recording.camera_file, folder.path("camera.yaml"));
+  EXPECT_EQ(recording.scene.tag.id, 5);
+  EXPECT_EQ(recording.name, std::filesystem::path(folder.path()).filename());
+  EXPECT_FALSE(recording.poses_csv || recording.truth_folder || recording.mask_folder || recording.expected_toml);
+}
+
+TEST(RecordingFolder, NameDoesNotDependOnHowTheFolderIsWritten) {
+  const RecordingFolder folder;
+  EXPECT_EQ(open_recording(folder.path() + "/").name, open_recording(folder.path()).name);
+  EXPECT_EQ(open_recording(folder.path() + "/.").name, open_recording(folder.path()).name);
+}
+
+TEST(RecordingFolder, TruthIsFoundWhereItIs) {
+  const RecordingFolder folder;
+  folder.write("poses.csv", "");
+  folder.write("truth/0000.png", "");
+  folder.write("mask/0000.png", "");
+  folder.write("expected.toml", "");
+  const Recording recording = open_recording(folder.path());
+  EXPECT_EQ(recording.poses_csv, folder.path("poses.csv"));
+  EXPECT_EQ(recording.truth_folder, folder.path("truth"));
+  EXPECT_EQ(recording.mask_folder, folder.path("mask"));
+  EXPECT_EQ(recording.expected_toml, folder.path("expected.toml"));
+}
+
+TEST(RecordingFolder, EveryContainerIsFound) {
+  for (const char* name : {"video.mp4", "video.mkv", "video.mov", "video.avi"}) {
+    const RecordingFolder folder;
+    std::filesystem::remove(folder.path("video.mp4"));
+    folder.write(name, "");
+    EXPECT_EQ(open_recording(folder.path()).footage, folder.path(name));
+  }
+}
+
+TEST(RecordingFolder, EveryKindOfStillIsFound) {
+  for (const std::string extension : {".png", ".jpg", ".exr"}) {
+    const RecordingFolder folder;
+    std::filesystem::remove(folder.path("video.mp4"));
+    folder.write("plate/thumbnail.png", "");
+    folder.write("plate/0003" + extension, "");
+    EXPECT_EQ(open_recording(folder.path()).footage, folder.path("plate/%04d" + extension));
+  }
+}
+
+TEST(RecordingFolder, WithoutFootageSaysWhatIsExpected) {
+  const RecordingFolder folder;
+  std::filesystem::remove(folder.path("video.mp4"));
+  folder.write("plate/notes.txt", "");
+  EXPECT_EQ(message_of<Error>([&] { open_recording(folder.path()); }),
+            folder.path() +
+                ": no footage in this folder; expected video.mp4 (or .mkv, .mov, .avi) or plate/0000.png, ... (or .jpg, .exr)");
+}
+
+TEST(RecordingFolder, WithoutCameraSaysWhatSuppliesIt) {
+  const RecordingFolder folder;
+  std::filesystem::remove(folder.path("camera.yaml"));
+  EXPECT_EQ(message_of<Error>([&] { open_recording(folder.path()); }),
+            folder.path("video.mp4") + ": no camera (expected " + folder.path("camera.yaml") +
+                "); pass --camera FILE, or --fov DEGREES where it is not calibrated");
+}
+
+TEST(RecordingFolder, WithoutSceneSaysWhatSuppliesIt) {
+  const RecordingFolder folder;
+  std::filesystem::remove(folder.path("scene.toml"));
+  EXPECT_EQ(message_of<Error>([&] { open_recording(folder.path()); }),
+            folder.path("video.mp4") + ": no scene (expected " + folder.path("scene.toml") + "); pass --scene FILE");
+}
+
+TEST(BareFootage, TakesSceneAndCameraFromTheOverrides) {
+  const RecordingFolder folder;
+  const std::string clip = folder.write("clip.mkv", "");
+  RecordingOverrides overrides;
+  overrides.scene_file = folder.path("scene.toml");
+  overrides.camera_file = folder.path("camera.yaml");
+  const Recording recording = open_recording(clip, overrides);
+  EXPECT_EQ(recording.name, "clip");
+  EXPECT_EQ(recording.folder, "");
+  EXPECT_EQ(recording.footage, clip);
+  EXPECT_EQ(recording.scene.tag.id, 5);
+}
+
+TEST(BareFootage, PatternsCamerasAndStreamsAreNotLookedUpAsFiles) {
+  const RecordingFolder folder;
+  RecordingOverrides overrides;
+  overrides.scene_file = folder.path("scene.toml");
+  overrides.fov_deg = 60;
+  EXPECT_EQ(open_recording("rtsp://camera.example/live", overrides).name, "live");
+  EXPECT_EQ(open_recording("/nowhere/plate/%04d.png", overrides).name, "plate");
+}
+
+TEST(BareFootage, MissingFileSaysWhatCanBeGiven) {
+  EXPECT_THAT(message_of<Error>([] { open_recording("/nowhere/clip.mp4"); }),
+              HasSubstr("/nowhere/clip.mp4: no such file or folder; expected"));
+}
+
+TEST(BareFootage, WithoutCameraOrSceneSaysWhatSuppliesThem) {
+  const RecordingFolder folder;
+  RecordingOverrides overrides;
+  EXPECT_THAT(message_of<Error>([&] { open_recording(folder.path("video.mp4"), overrides); }),
+              HasSubstr("pass --camera FILE, or --fov"));
+  overrides.fov_deg = 60;
+  EXPECT_THAT(message_of<Error>([&] { open_recording(folder.path("video.mp4"), overrides); }), HasSubstr("pass --scene FILE"));
+}
+
+TEST(RecordingOverrides, GoBeforeTheSceneFileWhichGoesBeforeTheDefaults) {
+  const RecordingFolder folder;
+  const Recording recording = open_recording(folder.path(), with({{"tag.id", "7"}}));
+  EXPECT_EQ(recording.scene.tag.id, 7);               // option
+  EXPECT_EQ(recording.scene.tag.size_m, 0.1);         // scene file
+  EXPECT_EQ(recording.scene.tag.family, "tag36h11");  // default
+}
+
+TEST(RecordingOverrides, LastOptionWins) {
+  const RecordingFolder folder;
+  EXPECT_EQ(open_recording(folder.path(), with({{"tag.id", "7"}, {"tag.id", "8"}})).scene.tag.id, 8);
+}
+
+TEST(RecordingOverrides, OutOfRangeIsAUsageError) {
+  const RecordingFolder folder;
+  EXPECT_THROW(open_recording(folder.path(), with({{"tag.id", "-1"}})), UsageError);
+}
+
+TEST(RecordingOverrides, CameraAndFieldOfViewExcludeEachOther) {
+  const RecordingFolder folder;
+  RecordingOverrides overrides;
+  overrides.camera_file = folder.path("camera.yaml");
+  overrides.fov_deg = 60;
+  EXPECT_THAT(message_of<UsageError>([&] { open_recording(folder.path(), overrides); }), HasSubstr("--camera and --fov"));
+}
+
+TEST(RecordingOverrides, ImpossibleFieldsOfViewAreRefused) {
+  const RecordingFolder folder;
+  for (const double fov_deg : {0.0, -60.0, 180.0, std::nan("")}) {
+    RecordingOverrides overrides;
+    overrides.fov_deg = fov_deg;
+    EXPECT_THROW(open_recording(folder.path(), overrides), UsageError) << fov_deg;
+  }
+}
+
+TEST(CameraForFootage, IsTheFilesWhereTheSizesAgree) {
+  const RecordingFolder folder;
+  const CameraModel camera = camera_for_footage(open_recording(folder.path()), 640, 480);
+  EXPECT_EQ(camera.fx_px, 600);
+  EXPECT_EQ(camera.cx_px, 319.5);
+}
+
+TEST(CameraForFootage, OtherSizeNamesBothAndTheFile) {
+  const RecordingFolder folder;
+  const Recording recording = open_recording(folder.path());
+  const std::string message = message_of<Error>([&] { camera_for_footage(recording, 1280, 720); });
+  EXPECT_THAT(message, HasSubstr(folder.path("camera.yaml") + ": is for pictures of 640x480"));
+  EXPECT_THAT(message, HasSubstr("is 1280x720"));
+}
+
+/// tan(45 deg) = 1: at 90 degrees the focal length is half the width.
+TEST(CameraForFootage, FieldOfViewGoesBeforeTheFoldersCamera) {
+  const RecordingFolder folder;
+  RecordingOverrides overrides;
+  overrides.fov_deg = 90;
+  const CameraModel camera = camera_for_footage(open_recording(folder.path(), overrides), 800, 600);
+  EXPECT_NEAR(camera.fx_px, 400, 1e-9);
+  EXPECT_EQ(camera.width_px, 800);
+}
+
+}  // namespace
+}  // namespace catchlight::app

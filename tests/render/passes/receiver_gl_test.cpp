@@ -1,0 +1,164 @@
+// The shadow on the receiving plane, and the layers a compositing package recombines.
+#include <cmath>
+
+#include "tests/support/gl_fixture.hpp"
+
+namespace catchlight::render::test {
+namespace {
+
+class ReceiverGl : public GlTest {};
+
+/// Nothing but a receiver of 0.2 m with 41 x 41 points; the object is a black speck far below.
+RenderScene receiver_scene(const std::function<double(double, double)>& ratio) {
+  RenderScene scene = constant_scene(square({-1e-4, -1e-4}, {1e-4, 1e-4}, -10), Material{}, glm::vec3(1));
+  scene.mesh.materials[0].base_color = glm::vec3(0);
+  add_receiver(scene.transfer, {.min_m = {-0.1f, -0.1f}, .max_m = {0.1f, 0.1f}, .columns = 41, .rows = 41}, ratio);
+  return scene;
+}
+
+/// Tag x, y (metres) under the centre of pixel (x, y): the camera looks straight down from 0.5 m with a focal length of 200 px.
+glm::dvec2 under_pixel(int x, int y) {
+  return {(x - 79.5) * 0.5 / 200, -(y - 59.5) * 0.5 / 200};
+}
+
+TEST_F(ReceiverGl, PlateIsMultipliedByTheRatioWhereItLies) {
+  // A linear ramp passes through the B-spline unchanged; x and y differ, so that no mirroring goes unnoticed.
+  const auto ramp = [](double x, double y) { return 0.6 + 3 * x + 1.5 * y; };
+  Compositor compositor(receiver_scene(ramp), {});
+  const Composite composite = compositor.render(linear_view_from_above(), linear_grey_plate());
+  for (int y = 30; y < 90; y += 7) {
+    for (int x = 50; x < 110; x += 7) {
+      const glm::dvec2 p = under_pixel(x, y);
+      EXPECT_NEAR(pixel_at(composite, x, y).x, 0.5 * ramp(p.x, p.y), 1e-4) << x << ", " << y;
+    }
+  }
+}
+
+TEST_F(ReceiverGl, TheGridsEndIsNotSeen) {
+  // Even where the transfer claims half the light at the very rim, the picture goes over to the plate in small steps.
+  Compositor compositor(receiver_scene([](double, double) { return 0.5; }), {});
+  const Composite composite = compositor.render(linear_view_from_above(), linear_grey_plate());
+  float last = 0.5f, largest_step = 0;
+  for (int x = composite.rect.x; x <= 80; ++x) {
+    const float value = pixel_at(composite, x, 60).x;
+    largest_step = std::max(largest_step, std::abs(value - last));
+    last = value;
+  }
+  EXPECT_NEAR(last, 0.25, 1e-5);
+  EXPECT_LT(largest_step, 0.08f) << "three points of 2 px: 0.25 over 6 px";
+}
+
+TEST_F(ReceiverGl, AClippedPlateIsAsBrightAsTheReceiverMustBe) {
+  // Twice the sensor's white in truth: a shadow that leaves 0.4 of it shows 0.8, one that leaves 0.6 does not show.
+  FrameView view = linear_view_from_above();
+  view.receiver_light = glm::vec3(2, 2, 0.5f);
+  for (const double left : {0.4, 0.6}) {
+    Compositor compositor(receiver_scene([left](double, double) { return left; }), without_glare());
+    const glm::vec4 clipped = pixel_at(compositor.render(view, plate_u8(255)), 80, 60);
+    EXPECT_NEAR(clipped.x, std::min(2 * left, 1.0), 1e-3) << left;
+    EXPECT_NEAR(clipped.z, left, 1e-3) << "never darker than it shows";
+    EXPECT_NEAR(pixel_at(compositor.render(view, plate_u8(200)), 80, 60).x, left * 200 / 255, 1e-3) << "not clipped: as it shows";
+  }
+  view.receiver_light = glm::vec3(0);
+  Compositor compositor(receiver_scene([](double, double) { return 0.4; }), without_glare());
+  EXPECT_NEAR(pixel_at(compositor.render(view, plate_u8(255)), 80, 60).x, 0.4, 1e-3) << "not known";
+}
+
+TEST_F(ReceiverGl, RatiosThatMakeNoSenseAreBounded) {
+  for (const auto& [given, shown] : {std::pair{-0.5, 0.0}, {100.0, 2.0}}) {
+    Compositor compositor(receiver_scene([value = given](double, double) { return value; }), without_glare());
+    EXPECT_NEAR(pixel_at(compositor.render(linear_view_from_above(), linear_grey_plate()), 80, 60).x, shown, 1e-5) << given;
+  }
+}
+
+TEST_F(ReceiverGl, WithoutLightThereIsNoShadow) {
+  RenderScene scene = receiver_scene([](double, double) { return 0.3; });
+  scene.light = constant_light({1, 0, 1}, 3);
+  Compositor compositor(scene, {});
+  const glm::vec4 pixel = pixel_at(compositor.render(linear_view_from_above(), linear_grey_plate()), 80, 60);
+  EXPECT_NEAR(pixel.x, 0.15, 1e-5);
+  EXPECT_NEAR(pixel.y, 0.5, 1e-5) << "no green light: green cannot be shadowed";
+}
+
+TEST_F(ReceiverGl, TheObjectHidesTheShadow) {
+  RenderScene scene = constant_scene(sphere(0.03, {0, 0, 0.03}), Material{}, glm::vec3(1));
+  scene.mesh.materials[0].dielectric_f0 = 0;
+  scene.mesh.materials[0].base_color = glm::vec3(0.7f);
+  scene.transfer = unshadowed_transfer(scene.mesh, 3);
+  add_receiver(scene.transfer, {.min_m = {-0.1f, -0.1f}, .max_m = {0.1f, 0.1f}, .columns = 21, .rows = 21},
+               [](double, double) { return 0.0; });
+  EXPECT_NEAR(pixel_at(Compositor(scene, {}).render(linear_view_from_above(), linear_grey_plate()), 80, 60).x, 0.7, 1e-3);
+}
+
+/// A glossy ball over a shadow, in a light that makes it glare.
+RenderScene full_scene() {
+  Material gloss;
+  gloss.base_color = {0.8f, 0.4f, 0.2f};
+  gloss.roughness = 0.1f;
+  RenderScene scene = constant_scene(sphere(0.04, {0, 0, 0.05}), gloss, glm::vec3(1));
+  scene.reflections = reflections_of([](const glm::dvec3& d) { return glm::vec3(d.z > 0.95 ? 200.0f : 0.5f); }, 32, 3);
+  add_receiver(scene.transfer, {.min_m = {-0.1f, -0.1f}, .max_m = {0.1f, 0.1f}, .columns = 41, .rows = 41},
+               [](double x, double y) { return 1 - 0.7 * std::exp(-(x * x + y * y) / 0.002); });
+  return scene;
+}
+
+TEST_F(ReceiverGl, LayersRecombineToThePicture) {
+  Compositor compositor(full_scene(), {});
+  FrameView view = linear_view_from_above();
+  view.black = glm::vec3(0.02f);
+  const PlateReader plate =
+      plate_f32([](int x, int y) { return glm::vec3(0.01f * static_cast<float>(x), 0.005f * static_cast<float>(y), 0.3f); });
+  const Composite composite = compositor.render(view, plate, true);
+  ASSERT_TRUE(composite.layers);
+  EXPECT_TRUE(composite.glare_drawn);
+  EXPECT_EQ(composite.rect, (PixelRect{0, 0, 160, 120}));
+  const Layers& layers = *composite.layers;
+  for (int y = 0; y < 120; ++y) {
+    for (int x = 0; x < 160; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        const float* object = layers.object.pixel(x, y);
+        const double sum = layers.plate.pixel(x, y)[c] * layers.shadow.pixel(x, y)[c] * (1 - object[3]) + object[c] +
+                           layers.glare.pixel(x, y)[c];
+        ASSERT_NEAR(pixel_at(composite, x, y)[c], sum, 1e-5 * (1 + sum)) << x << ", " << y;
+      }
+    }
+  }
+}
+
+TEST_F(ReceiverGl, LayersHoldGeometry) {
+  Compositor compositor(full_scene(), {});
+  const Layers layers = *compositor.render(linear_view_from_above(), linear_grey_plate(), true).layers;
+  // Straight above the ball: its top is 0.5 - 0.09 m away and faces the camera (-z in the camera frame).
+  EXPECT_NEAR(*layers.depth.pixel(80, 60), 0.41, 1e-3);
+  EXPECT_NEAR(layers.normal.pixel(80, 60)[2], -1.0, 1e-3);
+  EXPECT_GT(layers.normal.pixel(90, 60)[0], 0.3) << "camera x is picture right";
+  EXPECT_EQ(layers.object.pixel(80, 60)[3], 1.0f);
+  EXPECT_GT(layers.reflection.pixel(80, 60)[0], 1.0f);
+  EXPECT_EQ(*layers.depth.pixel(0, 0), 0.0f);
+  EXPECT_EQ(layers.object.pixel(0, 0)[3], 0.0f);
+  EXPECT_EQ(layers.shadow.pixel(0, 0)[0], 1.0f);
+}
+
+TEST_F(ReceiverGl, LayersWithNothingInSightAreThePlate) {
+  Compositor compositor(full_scene(), {});
+  FrameView view = linear_view_from_above();
+  view.camera_from_tag.translation_m.z = -1;
+  const Composite composite = compositor.render(view, linear_grey_plate(), true);
+  ASSERT_TRUE(composite.layers);
+  EXPECT_NEAR(composite.layers->plate.pixel(3, 4)[1], 0.5f, 1e-6);
+  EXPECT_EQ(composite.layers->object.pixel(80, 60)[3], 0.0f);
+  for (std::size_t i = 3; i < composite.rgba.size(); i += 4) ASSERT_EQ(composite.rgba[i], 0.0f);
+}
+
+TEST_F(ReceiverGl, LayersChangeNoPixelOfThePicture) {
+  Compositor compositor(full_scene(), {});
+  const Composite with = compositor.render(linear_view_from_above(), linear_grey_plate(), true),
+                  without = compositor.render(linear_view_from_above(), linear_grey_plate());
+  for (int y = without.rect.y; y < without.rect.y + without.rect.height; ++y) {
+    for (int x = without.rect.x; x < without.rect.x + without.rect.width; ++x)
+      ASSERT_EQ(pixel_at(with, x, y), pixel_at(without, x, y));
+  }
+}
+
+}  // namespace
+}  // namespace catchlight::render::test

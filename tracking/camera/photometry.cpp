@@ -1,0 +1,201 @@
+#include "tracking/camera/photometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "tracking/camera/lens.hpp"
+#include "tracking/detection/families.hpp"
+#include "tracking/refinement/ideal_pixels.hpp"
+#include "tracking/refinement/tag_pattern.hpp"
+#include "tracking/refinement/tag_view.hpp"
+
+namespace catchlight::tracking {
+namespace {
+
+constexpr double kSmallestCellPx = 3;   ///< below it, no pixel of a cell is free of its neighbours' light
+constexpr int kSamplesAcross = 8;       ///< of a cell's middle, at most: more would add nothing but time
+constexpr double kClippedShare = 0.1;   ///< of the samples: more would pull their mean
+constexpr double kTrimmedShare = 0.25;  ///< of the cells, at either end: a highlight, a shadow's edge, a stain
+
+/// Maps cells of the layout to where they are seen.
+struct CellGrid {
+  const CameraModel& camera;
+  const RigidTransform& camera_from_tag;
+  double cell_m;
+  double half_size_m;
+
+  std::optional<glm::dvec2> seen_px(double column, double row) const {
+    const glm::dvec3 point_m(column * cell_m - half_size_m, half_size_m - row * cell_m, 0);
+    return project_px(camera, camera_from_tag * point_m);
+  }
+
+  /// The shorter of the cell's two middle lines; 0 where it cannot be seen.
+  double cell_px(int column, int row) const {
+    const auto left = seen_px(column, row + 0.5), right = seen_px(column + 1, row + 0.5);
+    const auto top = seen_px(column + 0.5, row), bottom = seen_px(column + 0.5, row + 1);
+    if (!left || !right || !top || !bottom) return 0;
+    return std::min(glm::distance(*left, *right), glm::distance(*top, *bottom));
+  }
+};
+
+CellGrid cell_grid(const CameraModel& camera, const RigidTransform& camera_from_tag, const TagTarget& target,
+                   const TagLayout& layout) {
+  return {camera, camera_from_tag, target.size_m / layout.cells_across, target.size_m / 2};
+}
+
+struct CellMean {
+  glm::dvec3 linear{0.0};
+  int pixels = 0;
+  glm::ivec3 clipped{0};  ///< pixels
+};
+
+void count_clipped(const LinearPatch& patch, const glm::dvec3& linear, glm::ivec3& clipped) {
+  for (int c = 0; c < 3; ++c) clipped[c] += linear[c] >= patch.clipped_linear[c];
+}
+
+/// Mean of the nearest pixels to a grid of points in the cell's central half.
+CellMean cell_mean(const LinearPatch& patch, const CellGrid& grid, int column, int row) {
+  CellMean mean;
+  const double cell_px = grid.cell_px(column, row);
+  if (cell_px < kSmallestCellPx) return mean;
+  const int across = std::clamp(static_cast<int>(cell_px / 2), 1, kSamplesAcross);
+  for (int i = 0; i < across * across; ++i) {
+    const double u = 0.25 + 0.5 * (i % across + 0.5) / across, v = 0.25 + 0.5 * (i / across + 0.5) / across;
+    const auto seen = grid.seen_px(column + u, row + v);
+    if (!seen) continue;
+    const auto rgb = patch.at(*seen);
+    if (!rgb) continue;
+    mean.linear += *rgb;
+    count_clipped(patch, *rgb, mean.clipped);
+    ++mean.pixels;
+  }
+  if (mean.pixels > 0) mean.linear /= mean.pixels;
+  return mean;
+}
+
+/// Mean over cells without the darkest and brightest quarter of a channel.
+double trimmed_mean(const std::vector<CellMean>& cells, int channel) {
+  std::vector<double> light;
+  for (const CellMean& cell : cells) light.push_back(cell.linear[channel]);
+  std::sort(light.begin(), light.end());
+  const auto trimmed = static_cast<std::ptrdiff_t>(kTrimmedShare * static_cast<double>(cells.size()));
+  return std::accumulate(light.begin() + trimmed, light.end() - trimmed, 0.0) /
+         static_cast<double>(light.end() - light.begin() - 2 * trimmed);
+}
+
+/// Whether more cells are clipped than the mean leaves out at the bright end.
+bool is_clipped(const std::vector<CellMean>& cells, int channel) {
+  const auto clipped = std::count_if(cells.begin(), cells.end(), [channel](const CellMean& cell) {
+    return cell.clipped[channel] > kClippedShare * cell.pixels;
+  });
+  return clipped > static_cast<std::ptrdiff_t>(kTrimmedShare * static_cast<double>(cells.size()));
+}
+
+}  // namespace
+
+std::optional<glm::dvec3> LinearPatch::at(const glm::dvec2& seen_px) const {
+  const double x = std::round(seen_px.x) - rect.x, y = std::round(seen_px.y) - rect.y;
+  if (!(x >= 0 && x < rect.width && y >= 0 && y < rect.height)) return std::nullopt;
+  const float* value = &rgb[3 * (static_cast<std::size_t>(y) * rect.width + static_cast<std::size_t>(x))];
+  return glm::dvec3(value[0], value[1], value[2]);
+}
+
+PixelRect photometry_region(const CameraModel& camera, const RigidTransform& camera_from_tag, const TagTarget& target) {
+  const TagLayout layout = tag_layout(target.family, target.id);
+  const CellGrid grid = cell_grid(camera, camera_from_tag, target, layout);
+  // A lens bends the outline, so its sides count, not only its corners.
+  constexpr int kPointsPerSide = 8;
+  glm::dvec2 low(1e9), high(-1e9);
+  for (int i = 0; i <= kPointsPerSide; ++i) {
+    const double at = -layout.margin + i * static_cast<double>(layout.side()) / kPointsPerSide;
+    const double first = -layout.margin, last = layout.cells_across + layout.margin;
+    for (const auto& point : {grid.seen_px(at, first), grid.seen_px(at, last), grid.seen_px(first, at), grid.seen_px(last, at)}) {
+      if (!point || !std::isfinite(point->x + point->y)) return {};
+      low = glm::min(low, *point);
+      high = glm::max(high, *point);
+    }
+  }
+  const glm::dvec2 image(camera.width_px, camera.height_px);
+  const glm::ivec2 from(glm::clamp(glm::floor(low), glm::dvec2(0), image));
+  const glm::ivec2 to(glm::clamp(glm::ceil(high) + 1.0, glm::dvec2(0), image));
+  const PixelRect region{from.x, from.y, to.x - from.x, to.y - from.y};
+  return region.empty() ? PixelRect{} : region;
+}
+
+namespace {
+
+/// Least squares of every channel on the share of white, over the whole print.
+std::optional<TagPhotometry> unmixed_photometry(const LinearPatch& patch, const CameraModel& camera,
+                                                const RigidTransform& camera_from_tag, const TagTarget& target,
+                                                const TagLayout& layout, const Covariance2& blur_px2) {
+  constexpr double kLeastSpread = 0.02;  // variance of the share of white: less leaves nothing to tell them apart by
+  const TagView view(camera, camera_from_tag, target.size_m, layout.cells_across);
+  const TagPattern pattern(layout);
+  TagPhotometry photometry;
+  double n = 0, w = 0, ww = 0, light = 0;
+  glm::ivec3 clipped(0);
+  glm::dvec3 l(0.0), wl(0.0);
+  for (int row = 0; row < patch.rect.height; ++row)
+    for (int column = 0; column < patch.rect.width; ++column) {
+      const auto place = ideal_pixel(camera, {patch.rect.x + column, patch.rect.y + row});
+      const auto point = place ? view.at(place->ideal_px) : std::nullopt;
+      if (!point || point->cell.x < 0 || point->cell.y < 0) continue;
+      if (point->cell.x > layout.cells_across || point->cell.y > layout.cells_across) continue;
+      const PatternSample sample = pattern.sample(point->cell, in_cells(blur_px2, point->cell_per_px * place->ideal_per_seen));
+      if (!sample.known) continue;
+      const glm::dvec3 linear = *patch.at({patch.rect.x + column, patch.rect.y + row});
+      light += sample.white > 0.5;
+      if (sample.white > 0.5) count_clipped(patch, linear, clipped);
+      n += 1, w += sample.white, ww += sample.white * sample.white;
+      l += linear, wl += sample.white * linear;
+    }
+  const double spread = n * ww - w * w;
+  if (!(spread > kLeastSpread * n * n)) return std::nullopt;
+  const glm::dvec3 gain = (n * wl - w * l) / spread;
+  photometry.black_linear = glm::max((l - gain * w) / n, glm::dvec3(0.0));
+  photometry.white_linear = photometry.black_linear + gain;
+  for (int c = 0; c < 3; ++c) {
+    photometry.is_clipped[c] = clipped[c] > kClippedShare * light;
+    if (photometry.is_clipped[c]) photometry.black_linear[c] = 0;
+  }
+  photometry.white_pixels = static_cast<int>(light);
+  photometry.black_pixels = static_cast<int>(n - light);
+  return glm::dot(gain, kLuminanceWeights) > 0 ? std::optional(photometry) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<TagPhotometry> measure_photometry(const LinearPatch& patch, const CameraModel& camera,
+                                                const RigidTransform& camera_from_tag, const TagTarget& target,
+                                                const std::optional<Covariance2>& blur_px2) {
+  const TagLayout layout = tag_layout(target.family, target.id);
+  const CellGrid grid = cell_grid(camera, camera_from_tag, target, layout);
+  std::vector<CellMean> white, black;
+  TagPhotometry photometry;
+  for (int row = -layout.margin; row < layout.cells_across + layout.margin; ++row)
+    for (int column = -layout.margin; column < layout.cells_across + layout.margin; ++column) {
+      const Ink ink = layout.at(column, row);
+      if (ink == Ink::unknown) continue;
+      const CellMean mean = cell_mean(patch, grid, column, row);
+      if (mean.pixels == 0) continue;
+      (ink == Ink::white ? white : black).push_back(mean);
+      (ink == Ink::white ? photometry.white_pixels : photometry.black_pixels) += mean.pixels;
+    }
+  // Fewer than a ring's worth of either would let a single stain decide.
+  constexpr std::size_t kFewestCells = 8;
+  if (white.size() < kFewestCells || black.size() < kFewestCells)
+    return blur_px2 ? unmixed_photometry(patch, camera, camera_from_tag, target, layout, *blur_px2) : std::nullopt;
+  for (int c = 0; c < 3; ++c) {
+    photometry.white_linear[c] = trimmed_mean(white, c);
+    photometry.black_linear[c] = trimmed_mean(black, c);
+    photometry.is_clipped[c] = is_clipped(white, c);
+  }
+  if (!(glm::dot(photometry.white_linear - photometry.black_linear, kLuminanceWeights) > 0)) return std::nullopt;
+  for (int c = 0; c < 3; ++c)
+    if (is_clipped(black, c)) photometry.black_linear[c] = 0;
+  return photometry;
+}
+
+}  // namespace catchlight::tracking

@@ -1,0 +1,152 @@
+#include "tracking/camera/plane_light.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tracking/camera/lens.hpp"
+#include "tracking/detection/families.hpp"
+
+namespace catchlight::tracking {
+namespace {
+
+constexpr int kPatchesAcross = 10, kPatchesPerTag = 2;
+constexpr std::size_t kPatches = kPatchesAcross * kPatchesAcross - kPatchesPerTag * kPatchesPerTag;  ///< the last places
+constexpr double kClippedShare = 0.02;  ///< of a place's samples: what they lack pulls its mean
+
+/// A square on the plane, in sides of the tag from its centre, x right and y up.
+struct Place {
+  glm::dvec2 low;
+  double side;
+  int samples_across;
+};
+
+/// Only the middles of cells: their edges are blurred into each other.
+std::vector<Place> places_of(const TagTarget& target) {
+  constexpr int kCellSamples = 8, kPatchSamples = 12;
+  std::vector<Place> places;
+  const int cells = tag_layout(target.family, target.id).cells_across;
+  for (int row = 0; row < cells; ++row)
+    for (int column = 0; column < cells; ++column)
+      places.push_back({(glm::dvec2(column, row) + 0.25) / static_cast<double>(cells) - 0.5, 0.5 / cells, kCellSamples});
+  constexpr double kSide = 1.0 / kPatchesPerTag;
+  for (int row = 0; row < kPatchesAcross; ++row)
+    for (int column = 0; column < kPatchesAcross; ++column) {
+      const glm::dvec2 low = (glm::dvec2(column, row) - kPatchesAcross / 2.0) * kSide;
+      const glm::dvec2 middle = glm::abs(low + kSide / 2);
+      if (std::max(middle.x, middle.y) > 0.5) places.push_back({low, kSide, kPatchSamples});
+    }
+  return places;
+}
+
+struct Mean {
+  glm::dvec3 sum{0.0};
+  glm::ivec3 clipped{0};
+  int samples = 0;
+  bool is_whole = true;
+};
+
+Mean mean_of(const LinearPatch& patch, const CameraModel& camera, const RigidTransform& camera_from_tag, double size_m,
+             const Place& place) {
+  Mean mean;
+  const int across = place.samples_across;
+  for (int i = 0; i < across * across && mean.is_whole; ++i) {
+    const glm::dvec2 share = (glm::dvec2(i % across, i / across) + 0.5) / static_cast<double>(across);
+    const glm::dvec2 at = size_m * (place.low + place.side * share);
+    const auto seen = project_px(camera, camera_from_tag * glm::dvec3(at, 0));
+    const auto rgb = seen ? patch.at(*seen) : std::nullopt;
+    mean.is_whole = rgb.has_value();
+    if (!rgb) continue;
+    mean.sum += *rgb;
+    for (int c = 0; c < 3; ++c) mean.clipped[c] += (*rgb)[c] >= patch.clipped_linear[c];
+    ++mean.samples;
+  }
+  return mean;
+}
+
+struct Ratio {
+  double value, weight;
+};
+
+/// Of the first `places` that are known in both.
+std::vector<Ratio> ratios_of(const PlaneLight& now, const PlaneLight& then, int channel, std::size_t places) {
+  constexpr float kLeastLinear = 1e-3f;  // a quarter of a code of 8 bits in sRGB: darker places say nothing
+  std::vector<Ratio> ratios;
+  for (std::size_t i = 0; i < std::min({places, now.linear.size(), then.linear.size()}); ++i) {
+    const float bright = now.linear[i][channel], before = then.linear[i][channel];
+    if (!(bright > kLeastLinear && before > kLeastLinear)) continue;
+    ratios.push_back({static_cast<double>(bright) / static_cast<double>(before),
+                      static_cast<double>(std::min(now.samples[i], then.samples[i]) * before)});
+  }
+  return ratios;
+}
+
+struct MiddleHalf {
+  double low, mean, high;
+};
+
+/// Of the weights laid end to end, what lies in the middle.
+std::optional<MiddleHalf> middle_half(std::vector<Ratio> ratios) {
+  constexpr std::size_t kFewestPlaces = 8;
+  if (ratios.size() < kFewestPlaces) return std::nullopt;
+  std::sort(ratios.begin(), ratios.end(), [](const Ratio& a, const Ratio& b) { return a.value < b.value; });
+  double whole = 0, at = 0, sum = 0;
+  for (const Ratio& ratio : ratios) whole += ratio.weight;
+  MiddleHalf half{0, 0, 0};
+  for (const Ratio& ratio : ratios) {
+    const double inside = std::min(at + ratio.weight, 0.75 * whole) - std::max(at, 0.25 * whole);
+    at += ratio.weight;
+    if (!(inside > 0)) continue;
+    if (sum == 0) half.low = ratio.value;
+    half.high = ratio.value;
+    sum += inside * ratio.value;
+  }
+  half.mean = sum / (0.5 * whole);
+  return half;
+}
+
+}  // namespace
+
+PixelRect plane_region(const CameraModel& camera, const RigidTransform& camera_from_tag, const TagTarget& target) {
+  constexpr int kSteps = 2 * kPatchesAcross;
+  constexpr double kReach = 0.5 * kPatchesAcross / kPatchesPerTag;
+  const glm::dvec2 image(camera.width_px, camera.height_px);
+  glm::dvec2 low = image, high(0.0);
+  for (int i = 0; i <= kSteps; ++i)
+    for (int j = 0; j <= kSteps; ++j) {
+      const glm::dvec2 at = target.size_m * kReach * (2.0 * glm::dvec2(i, j) / static_cast<double>(kSteps) - 1.0);
+      const auto seen = project_px(camera, camera_from_tag * glm::dvec3(at, 0));
+      if (!seen || !std::isfinite(seen->x + seen->y)) continue;
+      low = glm::min(low, glm::floor(*seen));
+      high = glm::max(high, glm::ceil(*seen) + 1.0);
+    }
+  const glm::ivec2 from(glm::clamp(low, glm::dvec2(0), image)), to(glm::clamp(high, glm::dvec2(0), image));
+  const PixelRect region{from.x, from.y, to.x - from.x, to.y - from.y};
+  return region.empty() ? PixelRect{} : region;
+}
+
+PlaneLight measure_plane(const LinearPatch& patch, const CameraModel& camera, const RigidTransform& camera_from_tag,
+                         const TagTarget& target) {
+  PlaneLight light;
+  for (const Place& place : places_of(target)) {
+    const Mean mean = mean_of(patch, camera, camera_from_tag, target.size_m, place);
+    glm::vec3 linear(std::numeric_limits<float>::quiet_NaN());
+    for (int c = 0; c < 3; ++c)
+      if (mean.is_whole && mean.clipped[c] <= kClippedShare * mean.samples)
+        linear[c] = static_cast<float>(mean.sum[c] / mean.samples);
+    light.linear.push_back(linear);
+    light.samples.push_back(static_cast<float>(mean.samples));
+  }
+  return light;
+}
+
+std::optional<double> brightening(const PlaneLight& now, const PlaneLight& then, int channel) {
+  constexpr double kMostSpread = 1.05;  // a still surface: 1.02 through H.264; another one: 1.1 and far more
+  const auto all = middle_half(ratios_of(now, then, channel, now.linear.size()));
+  if (all && all->high <= kMostSpread * all->low) return all->mean;
+  const std::size_t tag_cells = now.linear.size() - std::min(now.linear.size(), kPatches);
+  const auto cells = middle_half(ratios_of(now, then, channel, tag_cells));
+  return cells ? std::optional(cells->mean) : std::nullopt;
+}
+
+}  // namespace catchlight::tracking
