@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "catchlight/tone_curve.hpp"
 #include "render/tone/tone_adaptation.hpp"
 
 namespace {
@@ -22,7 +23,7 @@ int main() {
     catchlight::render::ToneAdaptation adaptation(0.4, 1.6);
     for (int frame = 0; frame <= 12 * rate; ++frame) {
       const double time_s = static_cast<double>(frame) / rate, ev = wanted_ev(time_s, frame);
-      const catchlight::render::ToneCurve wanted{std::exp2(ev), 1}, drawn = adaptation.at(time_s).value_or(wanted);
+      const catchlight::ToneCurve wanted{std::exp2(ev), 1}, drawn = adaptation.at(time_s).value_or(wanted);
       adaptation.see(time_s, wanted);
       std::printf("%d,%.6f,%.4f,%.6f\n", rate, time_s, ev, std::log2(drawn.gain));
     }

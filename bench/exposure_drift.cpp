@@ -5,6 +5,7 @@
 
 #include "app/media/read/source.hpp"
 #include "app/session/frame_track.hpp"
+#include "catchlight/camera.hpp"
 #include "tests/support/exposure_fixture.hpp"
 #include "tracking/camera/camera_file.hpp"
 

@@ -13,13 +13,18 @@
 #include <iostream>
 #include <vector>
 
+#include "catchlight/camera.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/image.hpp"
+#include "catchlight/pixel_rect.hpp"
+#include "catchlight/util/statistics.hpp"
 #include "render/glare/glare_kernel.hpp"
 #include "render/math/fft_convolution.hpp"
 #include "render/passes/glare/aperture_glare_pass.hpp"
 #include "render/passes/glare/classic_glare.hpp"
+#include "render/settings.hpp"
 #include "tests/support/glare_fixture.hpp"
 #include "tests/support/glare_scenes.hpp"
-#include "tracking/statistics.hpp"
 
 namespace catchlight::render {
 namespace {
@@ -64,7 +69,7 @@ Times time_in_turns(const GlareSettings& settings, GlarePass& fast, const Image&
     }));
     convolve_ms.push_back(time_ms([&] { convolution.convolve(excess); }));
   }
-  return {tracking::median(fast_ms), tracking::median(spread_ms), tracking::median(reference_ms), tracking::median(convolve_ms)};
+  return {median(fast_ms), median(spread_ms), median(reference_ms), median(convolve_ms)};
 }
 
 struct Result {
@@ -143,8 +148,8 @@ Result measure_classic(const Image& picture) {
   for (std::size_t i = 0; i < glare.data.size(); ++i) energy += glare.data[i], wanted += reference.data[i];
   for (float& value : glare.data) value = static_cast<float>(value * wanted / energy);
   return compared(glare, reference,
-                  {tracking::median(classic_ms), tracking::median(classic_ms), tracking::median(reference_ms),
-                   tracking::median(reference_ms)});
+                  {median(classic_ms), median(classic_ms), median(reference_ms),
+                   median(reference_ms)});
 }
 
 class Table {

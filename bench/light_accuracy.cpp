@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "bench/accuracy/light_scene.hpp"
-#include "render/math/parallel.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/util/parallel.hpp"
 #include "render/probe/probe_split.hpp"
 
 namespace {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "catchlight/image.hpp"
 #include "render/math/hemisphere_rays.hpp"
 #include "render/probe/prefilter.hpp"
 #include "render/probe/probe.hpp"

@@ -10,7 +10,16 @@
 
 #include "app/media/read/source.hpp"
 #include "app/session/overlay.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/composite.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/image.hpp"
+#include "catchlight/track.hpp"
+#include "render/compositor.hpp"
 #include "render/probe/probe_split.hpp"
+#include "render/render_scene.hpp"
+#include "render/settings.hpp"
 
 namespace {
 
@@ -26,8 +35,8 @@ struct Part {
   glm::dvec3 share;  ///< of the light on the tag
 };
 
-render::Image exposed(const render::Layers& layers, const glm::dvec3& gain) {
-  render::Image linear(layers.plate.width, layers.plate.height);
+Image exposed(const Layers& layers, const glm::dvec3& gain) {
+  Image linear(layers.plate.width, layers.plate.height);
   for (int y = 0; y < linear.height; ++y) {
     for (int x = 0; x < linear.width; ++x) {
       const float* plate = layers.plate.pixel(x, y);
@@ -39,7 +48,7 @@ render::Image exposed(const render::Layers& layers, const glm::dvec3& gain) {
   return linear;
 }
 
-cv::Mat coded(const render::Image& linear, double gain) {
+cv::Mat coded(const Image& linear, double gain) {
   cv::Mat codes(linear.height, linear.width, CV_8UC3);
   for (int y = 0; y < codes.rows; ++y) {
     for (int x = 0; x < codes.cols; ++x) {
@@ -56,9 +65,9 @@ cv::Mat coded(const render::Image& linear, double gain) {
 class LayersOutput : public FrameOutput {
  public:
   bool wants_layers() const override { return true; }
-  void write(const Frame&, const render::Composite& composite) override { layers = composite.layers; }
+  void write(const Frame&, const Composite& composite) override { layers = composite.layers; }
 
-  std::optional<render::Layers> layers;
+  std::optional<Layers> layers;
 };
 
 render::Probe difference(const render::Probe& whole, const render::Probe& rest) {
@@ -89,7 +98,7 @@ class Studio {
 
   /// The whole frame, linear, as if the place had that part of its light alone: the plate is that much darker, and what is
   /// exposed by the tag on it that much brighter, before all of it is put back to the exposure of the whole.
-  render::Image frame(const Part& part) {
+  Image frame(const Part& part) {
     render::CompositorSettings settings;
     settings.glare = recording_.scene.glare;
     settings.samples = recording_.scene.quality.samples;
@@ -153,14 +162,14 @@ cv::Mat middle_of(const cv::Mat& frame) {
   return frame({frame.cols / 4, frame.rows / 4, frame.cols / 2, frame.rows / 2});
 }
 
-cv::Mat row_of(const render::Image& whole, const render::Image& lights, const render::Image& rest, double gain) {
+cv::Mat row_of(const Image& whole, const Image& lights, const Image& rest, double gain) {
   cv::Mat row;
   cv::hconcat(std::vector<cv::Mat>{coded(whole, gain), coded(lights, gain), coded(rest, gain)}, row);
   return row;
 }
 
 /// What a sensor would tell: light adds up, however it is divided.
-void report_sum(const render::Image& lights, const render::Image& rest, const render::Image& both) {
+void report_sum(const Image& lights, const Image& rest, const Image& both) {
   double most = 0, sum = 0;
   for (std::size_t i = 0; i < both.data.size(); ++i) {
     const double apart = std::abs(std::min(lights.data[i] + rest.data[i], 1.0f) - std::min(both.data[i], 1.0f));
@@ -183,8 +192,8 @@ void run(const std::string& location, const std::string& folder) {
               row_of(whole.image, lights.image, split.rest.image, kDarkProbe), probes);
   write(folder + "/light_probe.jpg", {probes});
 
-  const render::Image in_lights = studio.frame(lights_alone(studio, split)), in_rest = studio.frame(rest_alone(studio, split));
-  const render::Image in_both = studio.frame({studio.built().scene, glm::dvec3(1)});
+  const Image in_lights = studio.frame(lights_alone(studio, split)), in_rest = studio.frame(rest_alone(studio, split));
+  const Image in_both = studio.frame({studio.built().scene, glm::dvec3(1)});
   report_sum(in_lights, in_rest, in_both);
   const cv::Mat both = coded(in_both, 1), truth = studio.truth();
   write(folder + "/light_parts.jpg", {middle_of(coded(in_lights, 1)), middle_of(coded(in_rest, 1)), middle_of(both)});

@@ -1,6 +1,11 @@
 // Milliseconds a frame and a pass at two sizes of picture; the object fills a third of its height.
 #include <benchmark/benchmark.h>
 
+#include "catchlight/pixel_rect.hpp"
+#include "catchlight/plate.hpp"
+#include "render/compositor.hpp"
+#include "render/frame_view.hpp"
+#include "render/render_scene.hpp"
 #include "tests/support/gl_fixture.hpp"
 
 namespace catchlight::render::test {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bench/accuracy/experiments.hpp"
-#include "catchlight.hpp"
+#include "catchlight/error.hpp"
 
 namespace {
 

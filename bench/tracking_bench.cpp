@@ -7,11 +7,15 @@
 #include <opencv2/aruco.hpp>
 #endif
 
+#include "catchlight/camera.hpp"
+#include "catchlight/track.hpp"
 #include "tests/support/synthetic_tag.hpp"
 #include "tracking/detection/detector.hpp"
 #include "tracking/detection/families.hpp"
+#include "tracking/observation.hpp"
 #include "tracking/pose/planar_pose.hpp"
 #include "tracking/refinement/corner_refinement.hpp"
+#include "tracking/tracker.hpp"
 
 namespace catchlight::tracking {
 namespace {

@@ -4,9 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "catchlight/error.hpp"
+#include "catchlight/pixel_rect.hpp"
+#include "catchlight/tone_curve.hpp"
 #include "render/camera/lens.hpp"
 #include "render/gl/gl_context.hpp"
 #include "render/gl/pass_clock.hpp"
+#include "render/mesh/mesh.hpp"
 #include "render/passes/composite_pass.hpp"
 #include "render/passes/glare/aperture_glare_pass.hpp"
 #include "render/passes/glare/glare_pass.hpp"
@@ -17,6 +21,7 @@
 #include "render/passes/receiver_pass.hpp"
 #include "render/passes/shadowed_lights.hpp"
 #include "render/passes/tone_pass.hpp"
+#include "render/probe/light_samples.hpp"
 #include "render/scene_check.hpp"
 
 namespace catchlight::render {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "catchlight/camera.hpp"
+#include "catchlight/error.hpp"
 #include "shaders/interface.h"
 
 namespace catchlight::render {

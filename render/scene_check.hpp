@@ -1,7 +1,8 @@
 // What the compositor refuses: data that do not fit together or are not numbers.
 #pragma once
 
-#include "render/compositor.hpp"
+#include "render/frame_view.hpp"
+#include "render/render_scene.hpp"
 
 namespace catchlight::render {
 

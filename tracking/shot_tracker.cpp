@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "catchlight/track.hpp"
+
 namespace catchlight::tracking {
 namespace {
 

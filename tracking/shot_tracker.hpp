@@ -5,7 +5,12 @@
 #include <memory>
 #include <vector>
 
+#include "catchlight/camera.hpp"
+#include "catchlight/luma_view.hpp"
+#include "catchlight/tag.hpp"
+#include "tracking/observation.hpp"
 #include "tracking/tracker.hpp"
+#include "tracking/tracker_options.hpp"
 #include "tracking/trajectory/solver.hpp"
 
 namespace catchlight::tracking {

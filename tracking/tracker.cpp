@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "catchlight/error.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "catchlight/track.hpp"
 #include "tracking/detection/tag_search.hpp"
 #include "tracking/pose/corner_noise.hpp"
 #include "tracking/pose/planar_pose.hpp"
@@ -39,12 +42,6 @@ PoseCandidate candidate(const DirectFit& fit) {
 }
 
 }  // namespace
-
-std::vector<BundledTag> TagTarget::tags() const {
-  std::vector<BundledTag> all{{*this, {}}};
-  all.insert(all.end(), bundle.begin(), bundle.end());
-  return all;
-}
 
 struct Tracker::Impl {
   CameraModel camera;

@@ -6,7 +6,8 @@
 #include "app/commands/commands.hpp"
 #include "app/session/scene_build.hpp"
 #include "app/support/progress.hpp"
-#include "app/support/text.hpp"
+#include "catchlight/util/text.hpp"
+#include "render/render_scene.hpp"
 
 namespace catchlight::app {
 namespace {

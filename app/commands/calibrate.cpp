@@ -5,9 +5,11 @@
 
 #include "app/commands/commands.hpp"
 #include "app/support/output_file.hpp"
-#include "app/support/text.hpp"
 #include "app/tools/calibration/collect.hpp"
 #include "app/tools/calibration/report.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/util/text.hpp"
 
 namespace catchlight::app {
 namespace {

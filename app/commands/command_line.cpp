@@ -3,7 +3,8 @@
 
 #include "app/commands/commands.hpp"
 #include "app/settings/parameters.hpp"
-#include "app/support/text.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/util/text.hpp"
 
 namespace catchlight::app {
 namespace {

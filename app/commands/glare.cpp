@@ -6,7 +6,9 @@
 
 #include "app/commands/commands.hpp"
 #include "app/support/output_file.hpp"
-#include "app/support/text.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/image.hpp"
+#include "catchlight/util/text.hpp"
 #include "render/glare/aperture_picture.hpp"
 #include "render/glare/aperture_psf.hpp"
 #include "render/image/image_io.hpp"
@@ -23,8 +25,8 @@ struct Options {
 };
 
 /// BGR: each colour at the logarithm of its brightest channel, `decades` below the brightest glare to black.
-cv::Mat logarithmic(const render::Image& psf, double decades) {
-  const render::Image glare = render::glare_of(psf);
+cv::Mat logarithmic(const Image& psf, double decades) {
+  const Image glare = render::glare_of(psf);
   const float top = std::max(*std::max_element(glare.data.begin(), glare.data.end()), 1e-30f);
   cv::Mat result(psf.height, psf.width, CV_8UC3, cv::Scalar::all(0));
   for (int y = 0; y < psf.height; ++y)
@@ -39,7 +41,7 @@ cv::Mat logarithmic(const render::Image& psf, double decades) {
 }
 
 /// The aperture, and right of it what it makes of a point of light.
-cv::Mat side_by_side(const render::Image& aperture, const cv::Mat& psf) {
+cv::Mat side_by_side(const Image& aperture, const cv::Mat& psf) {
   cv::Mat result(psf.rows, 2 * psf.cols, CV_8UC3);
   for (int y = 0; y < aperture.height; ++y)
     for (int x = 0; x < aperture.width; ++x)
@@ -48,10 +50,10 @@ cv::Mat side_by_side(const render::Image& aperture, const cv::Mat& psf) {
   return result;
 }
 
-void write_picture(const Options& options, const render::AperturePicture& picture, const render::Image& psf) {
+void write_picture(const Options& options, const render::AperturePicture& picture, const Image& psf) {
   // A small file is enlarged by whole pixels.
-  render::Image aperture(psf.width, psf.height, 1);
-  const render::Image drawn = picture.draw(std::min(psf.width, picture.most_px));
+  Image aperture(psf.width, psf.height, 1);
+  const Image drawn = picture.draw(std::min(psf.width, picture.most_px));
   for (int y = 0; y < aperture.height; ++y)
     for (int x = 0; x < aperture.width; ++x)
       *aperture.pixel(x, y) = *drawn.pixel(x * drawn.width / aperture.width, y * drawn.height / aperture.height);
@@ -68,7 +70,7 @@ void show(const Options& options, Log& log) {
   const render::AperturePicture picture = render::aperture_picture(options.aperture);
   const render::AperturePlan plan = render::plan_aperture(options.optics, options.reach_px, picture.most_px);
   const render::ApertureFarField field(picture.draw(plan.picture_px), plan.transform_px);
-  const render::Image psf = render::aperture_psf(field, options.optics, plan.reach_px);
+  const Image psf = render::aperture_psf(field, options.optics, plan.reach_px);
   if (is_exr)
     render::write_exr(options.output, {{"", &psf, {"R", "G", "B"}, true}});
   else

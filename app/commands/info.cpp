@@ -9,9 +9,10 @@
 #include <thread>
 
 #include "app/commands/commands.hpp"
+#include "catchlight/error.hpp"
 #include "render/gl/gl_context.hpp"
 #include "render/transfer/transfer.hpp"
-#include "tracking/tracker.hpp"
+#include "tracking/detection/families.hpp"
 
 extern "C" {
 #include <libavcodec/avcodec.h>

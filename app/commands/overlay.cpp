@@ -7,6 +7,8 @@
 #include "app/settings/look.hpp"
 #include "app/support/output_file.hpp"
 #include "app/track_export/track_export.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/error.hpp"
 #include "tracking/camera/camera_file.hpp"
 
 namespace catchlight::app {

@@ -9,10 +9,14 @@
 #include "app/commands/probe.hpp"
 #include "app/settings/scene_settings.hpp"
 #include "app/support/output_file.hpp"
-#include "app/support/text.hpp"
 #include "app/tools/probe_view/probe_preview.hpp"
 #include "app/tools/probe_view/probe_statistics.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/image.hpp"
+#include "catchlight/util/text.hpp"
 #include "render/probe/probe_split.hpp"
+#include "render/render_scene.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -159,7 +163,7 @@ void write_sh(const ProbeArguments& arguments, Log& log) {
 }
 
 /// PNG keeps colour apart from coverage: straight alpha, sRGB, blue first as OpenCV has it.
-cv::Mat png_pixels(const render::Image& linear_premultiplied, double ev) {
+cv::Mat png_pixels(const Image& linear_premultiplied, double ev) {
   cv::Mat pixels(linear_premultiplied.height, linear_premultiplied.width, CV_8UC4);
   for (int y = 0; y < pixels.rows; ++y)
     for (int x = 0; x < pixels.cols; ++x) {

@@ -5,10 +5,12 @@
 #include "app/commands/probe.hpp"
 #include "app/settings/scene_file.hpp"
 #include "app/support/output_file.hpp"
-#include "app/support/text.hpp"
 #include "app/tools/probe_merge/merge.hpp"
 #include "app/tools/probe_merge/photographs.hpp"
 #include "app/tools/tag_print/tag_grid.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/tag.hpp"
+#include "catchlight/util/text.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -17,7 +19,7 @@ struct Options {
   MergeRequest request;
   std::vector<std::string> first_view, balls;
   std::string output, times, layout = "latlong", reflectance, scene, up;
-  tracking::PrintedTag tag;
+  PrintedTag tag;
   bool overwrite = false;
 };
 
@@ -50,7 +52,7 @@ void read_tag(Options& options, bool is_tag_given) {
     request.yaw_deg = scene.probe.yaw_deg;
   } else if (is_tag_given) {
     check_length(options.tag.size_m, "--tag-size-m");
-    request.tag = tracking::TagTarget{options.tag, {}};
+    request.tag = TagTarget{options.tag, {}};
   }
   if (!options.up.empty()) request.up = options.up.front();
 }

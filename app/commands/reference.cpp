@@ -9,7 +9,11 @@
 #include "app/session/reference_frame.hpp"
 #include "app/support/output_file.hpp"
 #include "app/support/progress.hpp"
-#include "app/support/text.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/image.hpp"
+#include "catchlight/track.hpp"
+#include "catchlight/util/text.hpp"
 #include "render/image/image_io.hpp"
 
 namespace catchlight::app {
@@ -82,7 +86,7 @@ void trace(const Options& options, Context& context) {
   const CameraModel camera = camera_for_footage(recording, info.width_px, info.height_px);
   const auto start = std::chrono::steady_clock::now();
   const TrackedFrame found = tracked_frame(options, recording, camera, context.log);
-  const render::Image traced = trace_reference_frame(found.frame, found.row, camera, recording.scene, options.quality,
+  const Image traced = trace_reference_frame(found.frame, found.row, camera, recording.scene, options.quality,
                                                      context.log.warning_handler(), progress_handler(context.log, "reference"));
   if (std::filesystem::path(output).extension() == ".exr")
     render::write_exr(output, {{"", &traced, {"R", "G", "B"}}});

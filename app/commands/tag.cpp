@@ -5,8 +5,9 @@
 
 #include "app/commands/commands.hpp"
 #include "app/support/output_file.hpp"
-#include "app/support/text.hpp"
 #include "app/tools/tag_print/writers.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/util/text.hpp"
 
 namespace catchlight::app {
 namespace {

@@ -5,6 +5,7 @@
 #include "app/session/overlay.hpp"
 #include "app/support/output_file.hpp"
 #include "app/track_export/track_export.hpp"
+#include "catchlight/camera.hpp"
 
 namespace catchlight::app {
 

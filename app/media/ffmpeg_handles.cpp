@@ -9,6 +9,8 @@ extern "C" {
 #include <libavdevice/avdevice.h>
 #include <libavutil/error.h>
 #include <libavutil/log.h>
+
+#include "catchlight/error.hpp"
 }
 
 namespace catchlight::app {

@@ -5,8 +5,6 @@
 #include <new>
 #include <string>
 
-#include "catchlight.hpp"
-
 extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavfilter/avfilter.h>

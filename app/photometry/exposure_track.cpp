@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tracking/statistics.hpp"
+#include "catchlight/util/statistics.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -56,8 +56,8 @@ bool match(const Witnesses& all, std::size_t frame, int channel, double& white, 
     whites = {here.own.exposure.white[channel]};
     blacks = {here.own.exposure.black[channel]};
   }
-  white = tracking::quantile(std::move(whites), 0.5);
-  black = tracking::quantile(std::move(blacks), 0.5);
+  white = quantile(std::move(whites), 0.5);
+  black = quantile(std::move(blacks), 0.5);
   return true;
 }
 

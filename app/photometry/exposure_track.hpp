@@ -6,6 +6,9 @@
 
 #include "app/photometry/exposure.hpp"
 #include "app/photometry/tag_light.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/tag.hpp"
+#include "catchlight/track.hpp"
 
 namespace catchlight::app {
 
@@ -16,7 +19,7 @@ namespace catchlight::app {
 struct ExposureWitness {
   double time_s = 0;
   TagReading own;
-  tracking::BundledTag tag;                   ///< that was read
+  BundledTag tag;                   ///< that was read
   std::optional<tracking::PlaneLight> plane;  ///< empty where no tag was read
   bool knows(int channel) const { return own.sources[static_cast<std::size_t>(channel)] == ExposureSource::tag; }
 };

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "catchlight/util/statistics.hpp"
 #include "tracking/camera/lens.hpp"
-#include "tracking/statistics.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -14,7 +14,7 @@ constexpr std::size_t kRemembered = 120;
 constexpr double kSignificant = 4;  ///< standard errors
 
 bool is_measured(const TrackRow& row) {
-  return row.state == tracking::TrackState::tracking && row.noise_codes > 0 && row.blur_px2.xx + row.blur_px2.yy > 0;
+  return row.state == TrackState::tracking && row.noise_codes > 0 && row.blur_px2.xx + row.blur_px2.yy > 0;
 }
 
 /// The rotation's axis times its angle.
@@ -56,36 +56,36 @@ double shutter_of(const std::vector<Directed>& parts) {
     squared = mb / mm;
     std::vector<double> offs;
     for (const Directed& part : parts) offs.push_back(std::abs(part.blur - squared * part.motion));
-    scale = std::max(1.4826 * tracking::median(std::move(offs)), 1e-6);
+    scale = std::max(1.4826 * median(std::move(offs)), 1e-6);
   }
   return squared > kSignificant * error ? std::min(std::sqrt(squared), 1.0) : 0;
 }
 
-double shutter_of(const std::vector<TrackRow>& rows, const std::vector<tracking::Covariance2>& motions) {
+double shutter_of(const std::vector<TrackRow>& rows, const std::vector<Covariance2>& motions) {
   std::vector<Directed> parts;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (!is_measured(rows[i])) continue;
-    const tracking::Covariance2 &motion = motions[i], &blur = rows[i].blur_px2;
+    const Covariance2 &motion = motions[i], &blur = rows[i].blur_px2;
     parts.push_back({motion.xx - motion.yy, blur.xx - blur.yy});
     parts.push_back({2 * motion.xy, 2 * blur.xy});
   }
   return shutter_of(parts);
 }
 
-double focus_of(const TrackRow& row, const tracking::Covariance2& motion, double shutter) {
+double focus_of(const TrackRow& row, const Covariance2& motion, double shutter) {
   const double blur = (row.blur_px2.xx + row.blur_px2.yy) / 2, of_motion = shutter * shutter * (motion.xx + motion.yy) / 2;
   return std::max(blur - of_motion, 0.0);
 }
 
 double median_or_0(std::vector<double> values) {
-  return values.empty() ? 0 : tracking::median(std::move(values));
+  return values.empty() ? 0 : median(std::move(values));
 }
 
 }  // namespace
 
-tracking::Covariance2 motion_covariance(const CameraModel& camera, const RigidTransform& camera_from_tag, const TagMotion& motion,
+Covariance2 motion_covariance(const CameraModel& camera, const RigidTransform& camera_from_tag, const TagMotion& motion,
                                         double tag_size_m) {
-  tracking::Covariance2 sum;
+  Covariance2 sum;
   const double half = tag_size_m / 2;
   constexpr int kPoints = 4;
   for (const glm::dvec3& corner : {glm::dvec3(-half, -half, 0), {half, -half, 0}, {half, half, 0}, {-half, half, 0}}) {
@@ -99,7 +99,7 @@ tracking::Covariance2 motion_covariance(const CameraModel& camera, const RigidTr
 }
 
 void measure_lens_blur(std::vector<TrackRow>& rows, const CameraModel& camera, double tag_size_m) {
-  std::vector<tracking::Covariance2> motions(rows.size());
+  std::vector<Covariance2> motions(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const bool has_before = i > 0 && follows(rows[i - 1], rows[i]),
                has_after = i + 1 < rows.size() && follows(rows[i], rows[i + 1]);
@@ -123,10 +123,10 @@ void LensBlurMeter::add(TrackRow& row) {
   if (!last_.empty() && follows(last_.back(), row)) row.lens_blur.motion = motion_between(last_.back(), row);
   last_.push_back(row);
   if (last_.size() > kRemembered) last_.erase(last_.begin());
-  std::vector<tracking::Covariance2> motions;
+  std::vector<Covariance2> motions;
   for (const TrackRow& each : last_)
     motions.push_back(each.found ? motion_covariance(camera_, each.camera_from_tag, each.lens_blur.motion, tag_size_m_)
-                                 : tracking::Covariance2{});
+                                 : Covariance2{});
   row.lens_blur.shutter = shutter_of(last_, motions);
   std::vector<double> around;
   const std::size_t window = 2 * kFocusFrames + 1, first = last_.size() - std::min(last_.size(), window);

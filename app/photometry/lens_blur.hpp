@@ -4,12 +4,15 @@
 #include <vector>
 
 #include "app/track_export/track_file.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "catchlight/track.hpp"
 
 namespace catchlight::app {
 
 /// Mean over the tag of v v^T / 12, v the way (pixels) its points go from frame to frame: the covariance that a shutter open all
 /// the time would add.
-tracking::Covariance2 motion_covariance(const CameraModel& camera, const RigidTransform& camera_from_tag, const TagMotion& motion,
+Covariance2 motion_covariance(const CameraModel& camera, const RigidTransform& camera_from_tag, const TagMotion& motion,
                                         double tag_size_m);
 
 /// Fills in `lens_blur` of rows in order, from their poses and blur.

@@ -6,12 +6,16 @@
 #include <optional>
 
 #include "app/photometry/linear_patch.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/pixel_rect.hpp"
+#include "catchlight/plate.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "catchlight/util/statistics.hpp"
 #include "tracking/camera/lens.hpp"
 #include "tracking/camera/photometry.hpp"
 #include "tracking/refinement/ideal_pixels.hpp"
 #include "tracking/refinement/tag_pattern.hpp"
 #include "tracking/refinement/tag_view.hpp"
-#include "tracking/statistics.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -97,7 +101,7 @@ void add_block(const CodePlanes& planes, int column, int row, CellBlocks& cell) 
 }
 
 /// Light per code: the slope of the curve.
-double slope_at(const render::PlateColor& response, double code, int channel) {
+double slope_at(const PlateColor& response, double code, int channel) {
   constexpr double kStep = 1.0 / 255;  // no finer than measured curves are
   return (linear_from_code(response, code + kStep, channel) - linear_from_code(response, code - kStep, channel)) / (2 * kStep);
 }
@@ -124,7 +128,7 @@ glm::dvec2 line(double w, double wi, double wii, double wv, double wiv) {
 
 /// By cell: what of the print, and of the sheet that may go on around it, is far enough from every edge of the print.
 std::vector<CellBlocks> cells_of(const CodePlanes& planes, const CameraModel& camera, const RigidTransform& camera_from_tag,
-                                 const tracking::BundledTag& tag, const tracking::Covariance2& blur_px2) {
+                                 const BundledTag& tag, const Covariance2& blur_px2) {
   const tracking::TagPattern pattern(tracking::tag_layout(tag.family, tag.id));
   const tracking::TagView view(camera, camera_from_tag, tag.size_m, pattern.cells_across());
   const int margin = pattern.margin() + kPaperCells, side = pattern.cells_across() + 2 * margin;
@@ -140,7 +144,7 @@ std::vector<CellBlocks> cells_of(const CodePlanes& planes, const CameraModel& ca
       const auto place = tracking::ideal_pixel(camera, at);
       const auto point = place ? view.at(place->ideal_px) : std::nullopt;
       if (!point) continue;
-      const tracking::Covariance2 reach =
+      const Covariance2 reach =
           tracking::in_cells({reach_px2, 0, reach_px2}, point->cell_per_px * place->ideal_per_seen);
       using enum tracking::TagPattern::Neighbourhood;
       if (pattern.around(point->cell, {std::sqrt(reach.xx), std::sqrt(reach.yy)}) != plateau) continue;
@@ -166,14 +170,14 @@ glm::dmat3 of_color(const glm::dmat3& covariance) {
 }
 
 /// The pixels of print and sheet.
-PixelRect region_of(const CameraModel& camera, const RigidTransform& camera_from_tag, const tracking::BundledTag& tag) {
+PixelRect region_of(const CameraModel& camera, const RigidTransform& camera_from_tag, const BundledTag& tag) {
   const tracking::TagLayout layout = tracking::tag_layout(tag.family, tag.id);
-  tracking::BundledTag larger = tag;
+  BundledTag larger = tag;
   larger.size_m *= static_cast<double>(layout.side() + 2 * kPaperCells) / layout.side();
-  return tracking::photometry_region(camera, camera_from_tag, tracking::TagTarget{larger, {}});
+  return tracking::photometry_region(camera, camera_from_tag, TagTarget{larger, {}});
 }
 
-FlatPatch flat_of(CellBlocks& cell, const glm::dmat3& rounding, const render::PlateColor& response) {
+FlatPatch flat_of(CellBlocks& cell, const glm::dmat3& rounding, const PlateColor& response) {
   const glm::dvec3 code = mean(cell.luma) + mean(cell.color), one(1.0);
   take_off_plane(cell.pixel_places, cell.luma);
   take_off_plane(cell.block_places, cell.block_luma);
@@ -206,11 +210,11 @@ FlatPatch flat_of(CellBlocks& cell, const glm::dmat3& rounding, const render::Pl
 }  // namespace
 
 void NoiseMeter::add(const Frame& frame, const TrackRow& row) {
-  if (row.state != tracking::TrackState::tracking || !(row.noise_codes > 0)) return;
-  for (const tracking::BundledTag& tag : target_.tags()) add_tag(frame, row, tag);
+  if (row.state != TrackState::tracking || !(row.noise_codes > 0)) return;
+  for (const BundledTag& tag : target_.tags()) add_tag(frame, row, tag);
 }
 
-void NoiseMeter::add_tag(const Frame& frame, const TrackRow& row, const tracking::BundledTag& tag) {
+void NoiseMeter::add_tag(const Frame& frame, const TrackRow& row, const BundledTag& tag) {
   const RigidTransform camera_from_tag = row.camera_from_tag * tag.tag_from_this;
   const CodePlanes planes = code_planes(frame, region_of(camera_, camera_from_tag, tag));
   if (planes.rect.empty()) return;
@@ -238,7 +242,7 @@ void NoiseMeter::add_alike(std::span<const FlatPatch> flats, std::span<const Fla
     variances.push_back(flat.luma_variance);
     light += flat.light / static_cast<double>(flats.size());
   }
-  const double most = kMostOfMedian * tracking::median(std::move(variances));
+  const double most = kMostOfMedian * median(std::move(variances));
   std::vector<FlatPatch> counted;
   for (const FlatPatch& flat : paper)
     if (flat.luma_variance <= most && glm::all(glm::lessThan(glm::abs(flat.light - light), kPaperLikeness * light)))

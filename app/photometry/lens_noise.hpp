@@ -5,9 +5,10 @@
 
 #include "app/media/pixels/code_planes.hpp"
 #include "app/media/pixels/frame.hpp"
-#include "app/photometry/lens_model.hpp"
 #include "app/track_export/track_file.hpp"
-#include "tracking/tracker.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/tag.hpp"
+#include "catchlight/track.hpp"
 
 namespace catchlight::app {
 
@@ -32,7 +33,7 @@ struct FlatPatch {
 /// and do not stand out either, count instead where there are as many.
 class NoiseMeter {
  public:
-  NoiseMeter(const CameraModel& camera, const tracking::TagTarget& target) : camera_(camera), target_(target) {}
+  NoiseMeter(const CameraModel& camera, const TagTarget& target) : camera_(camera), target_(target) {}
 
   /// Counts where the row's tag was seen and its blur measured.
   void add(const Frame& frame, const TrackRow& row);
@@ -42,13 +43,13 @@ class NoiseMeter {
   NoiseModel model() const;
 
  private:
-  void add_tag(const Frame& frame, const TrackRow& row, const tracking::BundledTag& tag);
+  void add_tag(const Frame& frame, const TrackRow& row, const BundledTag& tag);
   /// Of one ink, or of the `paper` that is like it.
   void add_alike(std::span<const FlatPatch> flats, std::span<const FlatPatch> paper);
   void add(const FlatPatch& flat);
 
   CameraModel camera_;
-  tracking::TagTarget target_;
+  TagTarget target_;
   // Of weight, light, light squared, variance, light times variance.
   glm::dvec3 w_{0.0}, wi_{0.0}, wii_{0.0}, wv_{0.0}, wiv_{0.0};
   glm::dmat3 together_{0.0};  ///< covariances, for the correlation

@@ -5,8 +5,9 @@
 #include <tuple>
 
 #include "app/photometry/linear_patch.hpp"
-#include "app/support/text.hpp"
-#include "tracking/statistics.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/util/statistics.hpp"
+#include "catchlight/util/text.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -23,16 +24,16 @@ glm::dmat3 covariance(const NoiseModel& noise, double light) {
   return glm::matrixCompMult(correlation, glm::outerProduct(sigma, sigma));
 }
 
-bool is_visible(const NoiseModel& noise, const render::PlateColor& response) {
+bool is_visible(const NoiseModel& noise, const PlateColor& response) {
   return std::max(noise_codes(noise, response, kGrey), noise_codes(noise, response, 3 * kGrey)) >= kVisibleCodes;
 }
 
-bool adds_noise(Switch wanted, const NoiseModel& noise, const render::PlateColor& response) {
+bool adds_noise(Switch wanted, const NoiseModel& noise, const PlateColor& response) {
   if (wanted == Switch::off || !noise.is_measured()) return false;
   return wanted == Switch::on || is_visible(noise, response);
 }
 
-PlanEntry noise_entry(Switch wanted, const NoiseModel& noise, const render::PlateColor& response) {
+PlanEntry noise_entry(Switch wanted, const NoiseModel& noise, const PlateColor& response) {
   const bool on = adds_noise(wanted, noise, response);
   std::string why;
   if (wanted == Switch::off) {
@@ -56,7 +57,7 @@ PlanEntry defocus_entry(Switch wanted, const std::vector<TrackRow>& rows) {
   if (wanted == Switch::off) return {"lens.defocus", "off", "switched off"};
   if (measured.empty()) return {"lens.defocus", "off", "not measured: needs tag.refinement direct"};
   LensBlurModel typical;
-  typical.focus_px2 = tracking::median(std::move(measured));
+  typical.focus_px2 = median(std::move(measured));
   const double added = defocus_px2(wanted, typical);
   return {"lens.defocus", added > 0 ? "on" : "off",
           "the tag's edges are blurred by " + fixed_text(std::sqrt(typical.focus_px2), 2) + " px (standard deviation, median), " +
@@ -95,7 +96,7 @@ PlanEntry chroma_entry(Switch wanted, const glm::ivec2& shift) {
 
 }  // namespace
 
-double noise_codes(const NoiseModel& noise, const render::PlateColor& response, double light) {
+double noise_codes(const NoiseModel& noise, const PlateColor& response, double light) {
   const glm::dmat3 c = covariance(noise, light);
   const double variance = std::max(glm::dot(kLuminanceWeights, c * kLuminanceWeights), 0.0);
   const double step = 1e-3 * light;

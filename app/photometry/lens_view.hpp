@@ -5,12 +5,14 @@
 #include "app/session/report.hpp"
 #include "app/settings/scene_settings.hpp"
 #include "app/track_export/track_file.hpp"
-#include "render/compositor.hpp"
+#include "catchlight/plate.hpp"
+#include "catchlight/track.hpp"
+#include "render/camera/lens_view.hpp"
 
 namespace catchlight::app {
 
 /// Luma's standard deviation on a grey of `light`, in 8-bit codes.
-double noise_codes(const NoiseModel& noise, const render::PlateColor& response, double light);
+double noise_codes(const NoiseModel& noise, const PlateColor& response, double light);
 
 /// Splits noise of these variances and correlations into what pixels of one colour sample share and what each has alone
 /// (render::LensNoise::mix): colour is RGB less luma, a block's; luma is the pixel's, and goes with colour as far as it is

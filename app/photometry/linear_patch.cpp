@@ -10,7 +10,7 @@ namespace catchlight::app {
 namespace {
 
 template <typename Code>
-void append_linear(const render::Plate& plate, const render::PlateColor& color, double full_scale, std::vector<float>& linear) {
+void append_linear(const Plate& plate, const PlateColor& color, double full_scale, std::vector<float>& linear) {
   const std::size_t count = plate.pixels.size() / sizeof(Code);
   linear.resize(count);
   std::array<std::vector<float>, 3> tables;
@@ -32,17 +32,17 @@ void append_linear(const render::Plate& plate, const render::PlateColor& color, 
 }  // namespace
 
 std::vector<float> linear_rgb(const Frame& frame, const PixelRect& rect) {
-  const render::Plate plate = frame.rgb(rect);
-  const render::PlateColor color = frame.color();
+  const Plate plate = frame.rgb(rect);
+  const PlateColor color = frame.color();
   std::vector<float> linear;
   switch (plate.format) {
-    case render::Plate::Format::rgb_u8:
+    case Plate::Format::rgb_u8:
       append_linear<std::uint8_t>(plate, color, 255, linear);
       break;
-    case render::Plate::Format::rgb_u16:
+    case Plate::Format::rgb_u16:
       append_linear<std::uint16_t>(plate, color, 65535, linear);
       break;
-    case render::Plate::Format::rgb_f32:
+    case Plate::Format::rgb_f32:
       append_linear<float>(plate, color, 1, linear);
       break;
   }
@@ -63,11 +63,11 @@ glm::dvec3 clipped_linear(const Frame& frame) {
   return clipped;
 }
 
-double linear_from_code(const render::PlateColor& color, double code, int channel) {
+double linear_from_code(const PlateColor& color, double code, int channel) {
   return color.curve ? color.curve->linear_from_code(code, channel) : catchlight::linear_from_code(color.transfer, code);
 }
 
-double code_from_linear(const render::PlateColor& color, double linear, int channel) {
+double code_from_linear(const PlateColor& color, double linear, int channel) {
   return color.curve ? color.curve->code_from_linear(linear, channel) : code_from_linear(color.transfer, linear);
 }
 

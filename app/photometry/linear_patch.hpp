@@ -4,6 +4,9 @@
 #include <vector>
 
 #include "app/media/pixels/frame.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/pixel_rect.hpp"
+#include "catchlight/plate.hpp"
 
 namespace catchlight::app {
 
@@ -17,7 +20,7 @@ glm::dvec3 clipped_linear(const Frame& frame);
 double code_from_linear(TransferFunction transfer, double linear);
 
 /// Both ways by the footage's response, formula or curve.
-double linear_from_code(const render::PlateColor& color, double code, int channel);
-double code_from_linear(const render::PlateColor& color, double linear, int channel);
+double linear_from_code(const PlateColor& color, double code, int channel);
+double code_from_linear(const PlateColor& color, double linear, int channel);
 
 }  // namespace catchlight::app

@@ -1,21 +1,22 @@
 #include "app/photometry/tag_light.hpp"
 
 #include "app/photometry/linear_patch.hpp"
+#include "catchlight/pixel_rect.hpp"
 
 namespace catchlight::app {
 namespace {
 
-tracking::TagTarget alone(const tracking::BundledTag& tag) {
+TagTarget alone(const BundledTag& tag) {
   return {tag, {}};
 }
 
 }  // namespace
 
 std::optional<TagLight::Reading> TagLight::read(const Frame& frame, const TrackRow& row) const {
-  if (row.state != tracking::TrackState::tracking) return std::nullopt;
-  const std::optional<tracking::Covariance2> blur_px2 = row.noise_codes > 0 ? std::optional(row.blur_px2) : std::nullopt;
+  if (row.state != TrackState::tracking) return std::nullopt;
+  const std::optional<Covariance2> blur_px2 = row.noise_codes > 0 ? std::optional(row.blur_px2) : std::nullopt;
   std::optional<Reading> clipped;
-  for (const tracking::BundledTag& tag : target_.tags()) {
+  for (const BundledTag& tag : target_.tags()) {
     const RigidTransform camera_from_this = row.camera_from_tag * tag.tag_from_this;
     const PixelRect region = tracking::photometry_region(camera_, camera_from_this, alone(tag));
     if (region.empty()) continue;
@@ -29,7 +30,7 @@ std::optional<TagLight::Reading> TagLight::read(const Frame& frame, const TrackR
 }
 
 tracking::PlaneLight TagLight::plane(const Frame& frame, const RigidTransform& camera_from_tag,
-                                     const tracking::BundledTag& tag) const {
+                                     const BundledTag& tag) const {
   const RigidTransform camera_from_this = camera_from_tag * tag.tag_from_this;
   const PixelRect region = tracking::plane_region(camera_, camera_from_this, alone(tag));
   if (region.empty()) return {};

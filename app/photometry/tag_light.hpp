@@ -7,6 +7,10 @@
 #include "app/media/pixels/frame.hpp"
 #include "app/settings/scene_settings.hpp"
 #include "app/track_export/track_file.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "catchlight/tag.hpp"
+#include "catchlight/track.hpp"
 #include "tracking/camera/plane_light.hpp"
 
 namespace catchlight::app {
@@ -17,18 +21,18 @@ class TagLight {
 
   struct Reading {
     tracking::TagPhotometry photometry;
-    tracking::BundledTag tag;  ///< of a board, the first that can be read without clipping, else the first that can be read
+    BundledTag tag;  ///< of a board, the first that can be read without clipping, else the first that can be read
   };
 
   /// Empty where the row's pose is not of this frame: one that was only predicted may not lie on the cells.
   std::optional<Reading> read(const Frame& frame, const TrackRow& row) const;
 
   /// Of the plane that `tag` lies in; nothing known where it is out of sight.
-  tracking::PlaneLight plane(const Frame& frame, const RigidTransform& camera_from_tag, const tracking::BundledTag& tag) const;
+  tracking::PlaneLight plane(const Frame& frame, const RigidTransform& camera_from_tag, const BundledTag& tag) const;
 
  private:
   CameraModel camera_;
-  tracking::TagTarget target_;
+  TagTarget target_;
 };
 
 /// What the user should know where of `drawn` frames the exposure of `held` was not to be read, or of `guessed` only by the black

@@ -5,7 +5,8 @@
 #include <sstream>
 
 #include "app/response/response_points.hpp"
-#include "app/support/text.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/util/text.hpp"
 
 namespace catchlight::app {
 namespace {

@@ -4,7 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "response_curve.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/response_curve.hpp"
 
 namespace catchlight::app {
 

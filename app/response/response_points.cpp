@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 #include <sstream>
 
-#include "app/support/text.hpp"
+#include "catchlight/util/text.hpp"
 
 namespace catchlight::app {
 namespace {

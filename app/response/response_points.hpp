@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "response_curve.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/response_curve.hpp"
 
 namespace catchlight::app {
 

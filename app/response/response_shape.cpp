@@ -4,7 +4,9 @@
 #include <limits>
 
 #include "app/response/response_points.hpp"
-#include "app/support/text.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/response_curve.hpp"
+#include "catchlight/util/text.hpp"
 
 namespace catchlight::app {
 namespace {

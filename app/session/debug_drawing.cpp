@@ -5,6 +5,9 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "catchlight/pixel_rect.hpp"
+#include "catchlight/plate.hpp"
+#include "catchlight/rigid_transform.hpp"
 #include "tracking/camera/lens.hpp"
 
 namespace catchlight::app {
@@ -82,15 +85,15 @@ void add_tag(Sketch& sketch, const CameraModel& camera, const RigidTransform& ca
   }
 }
 
-const cv::Scalar& color_of(tracking::TrackState state) {
-  if (state == tracking::TrackState::lost) return kLightRed;
-  return state == tracking::TrackState::tracking ? kLightGreen : kOrange;
+const cv::Scalar& color_of(TrackState state) {
+  if (state == TrackState::lost) return kLightRed;
+  return state == TrackState::tracking ? kLightGreen : kOrange;
 }
 
 /// In the top left corner, as wide as the picture at most.
 void add_labels(Sketch& sketch, const TrackRow& row, int width_px) {
   sketch.labels.push_back({"frame " + std::to_string(row.frame) + "  " + name_of(row.state), color_of(row.state), {}});
-  if (row.state == tracking::TrackState::tracking) {
+  if (row.state == TrackState::tracking) {
     char text[80];
     std::snprintf(text, sizeof text, "corners +-%.3f px  residual %.1f codes  ambiguity %.2f", row.corner_sigma_px,
                   row.noise_codes, row.ambiguity);
@@ -148,7 +151,7 @@ void draw(const Sketch& sketch, cv::Mat& canvas, const cv::Point& origin_px) {
 }
 
 /// The composite over a larger rectangle; what is new is unchanged.
-void grow(render::Composite& composite, const PixelRect& bounds) {
+void grow(Composite& composite, const PixelRect& bounds) {
   const PixelRect old = composite.rect, grown = unite(old, bounds);
   const auto width = static_cast<std::size_t>(grown.width);
   std::vector<float> rgba(4 * width * static_cast<std::size_t>(grown.height));
@@ -162,7 +165,7 @@ void grow(render::Composite& composite, const PixelRect& bounds) {
 }
 
 /// The composite's four floats of a pixel of the frame.
-float* pixel(render::Composite& composite, int x, int y) {
+float* pixel(Composite& composite, int x, int y) {
   const auto index = static_cast<std::size_t>(y - composite.rect.y) * static_cast<std::size_t>(composite.rect.width) +
                      static_cast<std::size_t>(x - composite.rect.x);
   return composite.rgba.data() + 4 * index;
@@ -170,15 +173,15 @@ float* pixel(render::Composite& composite, int x, int y) {
 
 /// Codes of 8 bits, RGB: fine enough for what antialiased edges are blended with.
 cv::Mat plate_codes(const Frame& frame, const PixelRect& rect) {
-  render::Plate plate = frame.rgb(rect);
+  Plate plate = frame.rgb(rect);
   cv::Mat codes;
   switch (plate.format) {
-    case render::Plate::Format::rgb_u8:
+    case Plate::Format::rgb_u8:
       return cv::Mat(rect.height, rect.width, CV_8UC3, plate.pixels.data()).clone();
-    case render::Plate::Format::rgb_u16:
+    case Plate::Format::rgb_u16:
       cv::Mat(rect.height, rect.width, CV_16UC3, plate.pixels.data()).convertTo(codes, CV_8U, 1 / 257.0);
       break;
-    case render::Plate::Format::rgb_f32:
+    case Plate::Format::rgb_f32:
       cv::Mat(rect.height, rect.width, CV_32FC3, plate.pixels.data()).convertTo(codes, CV_8U, 255);
       break;
   }
@@ -186,7 +189,7 @@ cv::Mat plate_codes(const Frame& frame, const PixelRect& rect) {
 }
 
 /// What the frame with its composite shows.
-cv::Mat shown_codes(const Frame& frame, render::Composite& composite, const PixelRect& rect) {
+cv::Mat shown_codes(const Frame& frame, Composite& composite, const PixelRect& rect) {
   cv::Mat codes = plate_codes(frame, rect);
   for (int y = 0; y < rect.height; ++y)
     for (int x = 0; x < rect.width; ++x) {
@@ -200,7 +203,7 @@ cv::Mat shown_codes(const Frame& frame, render::Composite& composite, const Pixe
 }  // namespace
 
 void draw_debug(const Frame& frame, const TrackRow& row, const CameraModel& camera, double tag_size_m,
-                render::Composite& composite) {
+                Composite& composite) {
   Sketch sketch{std::min(frame.width_px(), frame.height_px()) / 480.0, {}, 0, {}};
   if (row.found) add_tag(sketch, camera, row.camera_from_tag, tag_size_m);
   add_labels(sketch, row, frame.width_px());

@@ -3,8 +3,9 @@
 
 #include "app/media/pixels/frame.hpp"
 #include "app/track_export/track_file.hpp"
-#include "catchlight.hpp"
-#include "render/compositor.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/composite.hpp"
+#include "catchlight/track.hpp"
 
 namespace catchlight::app {
 
@@ -13,6 +14,6 @@ namespace catchlight::app {
 /// frame without a pose gets the text alone. Lines and text are as large beside the picture at every resolution. Pixels that
 /// nothing is drawn on stay as they are.
 void draw_debug(const Frame& frame, const TrackRow& row, const CameraModel& camera, double tag_size_m,
-                render::Composite& composite);
+                Composite& composite);
 
 }  // namespace catchlight::app

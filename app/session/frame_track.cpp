@@ -5,6 +5,9 @@
 #include "app/photometry/exposure_track.hpp"
 #include "app/photometry/lens_blur.hpp"
 #include "app/photometry/lens_noise.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "catchlight/tag.hpp"
+#include "tracking/observation.hpp"
 #include "tracking/pose/planar_pose.hpp"
 #include "tracking/pose/pose_covariance.hpp"
 #include "tracking/shot_tracker.hpp"
@@ -15,8 +18,8 @@ namespace catchlight::app {
 namespace {
 
 /// Whether any of the target can be in the picture.
-bool is_in_picture(const CameraModel& camera, const tracking::TagTarget& target, const RigidTransform& camera_from_tag) {
-  for (const tracking::BundledTag& tag : target.tags()) {
+bool is_in_picture(const CameraModel& camera, const TagTarget& target, const RigidTransform& camera_from_tag) {
+  for (const BundledTag& tag : target.tags()) {
     const auto quad = tracking::project_corners(camera, camera_from_tag * tag.tag_from_this, tag.size_m);
     if (!quad) continue;
     glm::dvec2 low = (*quad)[0], high = low;
@@ -30,11 +33,11 @@ bool is_in_picture(const CameraModel& camera, const tracking::TagTarget& target,
 }
 
 /// A row's pose; a tag that went on out of the picture is lost.
-void set_pose(TrackRow& row, tracking::TrackState state, const RigidTransform& camera_from_tag, const CameraModel& camera,
-              const tracking::TagTarget& target) {
-  const bool is_lost = state == tracking::TrackState::lost || !is_in_picture(camera, target, camera_from_tag);
+void set_pose(TrackRow& row, TrackState state, const RigidTransform& camera_from_tag, const CameraModel& camera,
+              const TagTarget& target) {
+  const bool is_lost = state == TrackState::lost || !is_in_picture(camera, target, camera_from_tag);
   row.found = !is_lost;
-  row.state = is_lost ? tracking::TrackState::lost : state;
+  row.state = is_lost ? TrackState::lost : state;
   row.camera_from_tag = camera_from_tag;
 }
 
@@ -80,7 +83,7 @@ class TagTrack : public FrameTrack {
 
  private:
   CameraModel camera_;
-  tracking::TagTarget target_;
+  TagTarget target_;
   tracking::Tracker tracker_;
   ExposureTrack exposure_;
   NoiseMeter noise_;
@@ -114,7 +117,7 @@ class RecordedTrack : public FrameTrack {
 
 struct PathTrack::Impl {
   CameraModel camera;
-  tracking::TagTarget target;
+  TagTarget target;
   tracking::RecordedPath path;
   ExposurePath exposure;
   NoiseMeter noise;
@@ -122,7 +125,7 @@ struct PathTrack::Impl {
 };
 
 PathTrack::PathTrack(const CameraModel& camera, const SceneSettings& scene) {
-  const tracking::TagTarget target = scene.tag.target();
+  const TagTarget target = scene.tag.target();
   impl_ = std::make_unique<Impl>(Impl{camera, target, tracking::RecordedPath(camera, target, scene.tag.tracker_options()),
                                       ExposurePath(camera, scene), NoiseMeter(camera, target), {}});
 }

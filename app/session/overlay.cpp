@@ -11,6 +11,9 @@
 #include "app/session/debug_drawing.hpp"
 #include "app/settings/look.hpp"
 #include "app/support/progress.hpp"
+#include "catchlight/composite.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/pixel_rect.hpp"
 
 namespace catchlight::app {
 
@@ -34,13 +37,13 @@ std::optional<std::int64_t> frames_to_read(const SourceInfo& info, const FrameRa
 void count(const TrackRow& row, Report& report) {
   ++report.frames;
   switch (row.state) {
-    case tracking::TrackState::tracking:
+    case TrackState::tracking:
       ++report.tracked_frames;
       break;
-    case tracking::TrackState::coasting:
+    case TrackState::coasting:
       ++report.coasting_frames;
       break;
-    case tracking::TrackState::lost:
+    case TrackState::lost:
       ++report.lost_frames;
       break;
   }
@@ -95,7 +98,7 @@ OverlayResult run(MediaSource& source, FrameTrack& track, const FrameRange& rang
   return result;
 }
 
-void count_glare(const render::Composite& composite, const CameraModel& camera, Report& report) {
+void count_glare(const Composite& composite, const CameraModel& camera, Report& report) {
   if (!composite.glare_drawn) return;
   const PixelRect& reached = composite.glare_rect;
   const double share =
@@ -153,7 +156,7 @@ OverlayResult run_overlay(MediaSource& source, FrameTrack& track, Stage& stage, 
   const auto per_frame = [&](const Frame& frame, const TrackRow& row) {
     last = frame;
     if (!output.wants_frame(frame.number())) return pass_over(frame, row);
-    render::Composite composite = drawing.draw(frame, row);
+    Composite composite = drawing.draw(frame, row);
     count_glare(composite, camera, report);
     for (const render::PassTime& pass : drawing.pass_times()) report.stages.add(pass.name, pass.ms);
     if (stage.draws_debug) draw_debug(frame, row, camera, scene.tag.size_m, composite);

@@ -13,6 +13,8 @@
 #include "app/session/report.hpp"
 #include "app/session/stage.hpp"
 #include "app/support/log.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/track.hpp"
 
 namespace catchlight::app {
 

@@ -9,7 +9,8 @@
 
 #include "app/media/read/source.hpp"
 #include "app/settings/scene_settings.hpp"
-#include "catchlight.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/error.hpp"
 
 namespace catchlight::app {
 

@@ -8,12 +8,12 @@
 #include "app/photometry/linear_patch.hpp"
 #include "app/session/scene_build.hpp"
 #include "app/support/output_file.hpp"
+#include "catchlight/plate.hpp"
 #include "render/reference/path_tracer.hpp"
 
 namespace catchlight::app {
 namespace {
 
-using render::Image;
 namespace reference = render::reference;
 
 /// Exposed linear value = gain * radiance + black.
@@ -78,8 +78,8 @@ Image trace_reference_frame(const Frame& frame, const TrackRow& row, const Camer
 }
 
 void write_reference_png(const std::string& path, const Image& exposed_linear, const Frame& frame, bool overwrite) {
-  const render::PlateColor color = frame.color();
-  const bool is_8_bit = frame.rgb({0, 0, 1, 1}).format == render::Plate::Format::rgb_u8;
+  const PlateColor color = frame.color();
+  const bool is_8_bit = frame.rgb({0, 0, 1, 1}).format == Plate::Format::rgb_u8;
   const double full_scale = is_8_bit ? 255 : 65535;
   cv::Mat picture(exposed_linear.height, exposed_linear.width, is_8_bit ? CV_8UC3 : CV_16UC3);
   for (int y = 0; y < picture.rows; ++y) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
-#include "app/support/text.hpp"
+#include "catchlight/util/text.hpp"
 #include "render/math/sh.hpp"
 #include "render/probe/prefilter.hpp"
 #include "render/probe/probe_split.hpp"

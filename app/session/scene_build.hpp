@@ -7,9 +7,12 @@
 
 #include "app/session/report.hpp"
 #include "app/settings/scene_settings.hpp"
-#include "catchlight.hpp"
-#include "render/compositor.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/progress.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "render/mesh/mesh.hpp"
 #include "render/probe/probe.hpp"
+#include "render/render_scene.hpp"
 #include "render/transfer/transfer.hpp"
 
 namespace catchlight::app {

@@ -5,6 +5,9 @@
 #include "app/settings/look.hpp"
 #include "app/settings/parameters.hpp"
 #include "app/support/progress.hpp"
+#include "catchlight/pixel_rect.hpp"
+#include "catchlight/plate.hpp"
+#include "render/settings.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -26,7 +29,7 @@ render::FrameView frame_view(const CameraModel& camera, const SceneSettings& sce
   return view;
 }
 
-render::PlateReader reader(const Frame& frame) {
+PlateReader reader(const Frame& frame) {
   return [&frame](const PixelRect& rect) { return frame.rgb(rect); };
 }
 
@@ -56,11 +59,11 @@ FrameDrawing::FrameDrawing(Stage& stage, const SceneSettings& scene, const Camer
       want_layers_(want_layers),
       adaptation_(scene.exposure.adapt_bright_s, scene.exposure.adapt_dark_s) {}
 
-render::Composite FrameDrawing::draw(const Frame& frame, const TrackRow& row) {
+Composite FrameDrawing::draw(const Frame& frame, const TrackRow& row) {
   pass_times_.clear();
   if (!row.found && !(recodes_every_frame(scene_) && !want_layers_)) return {};
   const render::FrameView view = view_of(frame, row);
-  render::Composite composite = stage_.compositor->render(view, reader(frame), want_layers_);
+  Composite composite = stage_.compositor->render(view, reader(frame), want_layers_);
   pass_times_ = stage_.compositor->pass_times();
   if (adapts()) adaptation_.see(frame.time_s(), composite.tone_wanted);
   return composite;

@@ -9,8 +9,13 @@
 #include "app/session/scene_build.hpp"
 #include "app/support/log.hpp"
 #include "app/track_export/track_file.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/composite.hpp"
+#include "catchlight/track.hpp"
 #include "render/compositor.hpp"
+#include "render/frame_view.hpp"
 #include "render/gl/gl_context.hpp"
+#include "render/pass_time.hpp"
 #include "render/tone/tone_adaptation.hpp"
 
 namespace catchlight::app {
@@ -33,7 +38,7 @@ class FrameDrawing {
   /// `stage` and `scene` must live as long.
   FrameDrawing(Stage& stage, const SceneSettings& scene, const CameraModel& camera, bool want_layers);
 
-  render::Composite draw(const Frame& frame, const TrackRow& row);
+  Composite draw(const Frame& frame, const TrackRow& row);
 
   /// Of a frame that is not written.
   void pass_over(const Frame& frame, const TrackRow& row);

@@ -1,6 +1,7 @@
 #include "app/settings/look.hpp"
 
 #include "app/settings/parameters.hpp"
+#include "render/settings.hpp"
 
 namespace catchlight::app {
 namespace {

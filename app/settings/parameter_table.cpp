@@ -1,8 +1,8 @@
 #include "app/settings/parameters.hpp"
-#include "render/compositor.hpp"
 #include "render/glare/aperture_picture.hpp"
 #include "render/math/sh.hpp"
-#include "tracking/tracker.hpp"
+#include "render/render_scene.hpp"
+#include "tracking/detection/families.hpp"
 
 namespace catchlight::app {
 namespace {

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "app/support/text.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/util/text.hpp"
 
 namespace catchlight::app {
 namespace {

@@ -5,7 +5,8 @@
 #include <sstream>
 
 #include "app/settings/parameters.hpp"
-#include "app/support/text.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/util/text.hpp"
 #include "toml++/toml.h"
 
 namespace catchlight::app {

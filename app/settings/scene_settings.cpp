@@ -20,8 +20,8 @@ glm::dmat4 SceneSettings::Object::tag_from_object() const {
   return matrix ? *matrix : glm::scale(placed(translation_m, rotation_deg), glm::dvec3(scale));
 }
 
-tracking::TagTarget SceneSettings::Tag::target() const {
-  tracking::TagTarget target{{family, id, size_m}, {}};
+TagTarget SceneSettings::Tag::target() const {
+  TagTarget target{{family, id, size_m}, {}};
   for (const Bundled& tag : bundle) {
     const glm::dmat4 tag_from_this = placed(tag.translation_m, tag.rotation_deg);
     target.bundle.push_back({{tag.family == "same" ? family : tag.family, tag.id, tag.size_m > 0 ? tag.size_m : size_m},

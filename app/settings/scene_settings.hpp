@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "catchlight.hpp"
-#include "render/compositor.hpp"
-#include "tracking/tracker.hpp"
+#include "catchlight/tag.hpp"
+#include "render/settings.hpp"
+#include "tracking/tracker_options.hpp"
 
 namespace catchlight::app {
 
@@ -35,7 +35,7 @@ struct SceneSettings {
     };
     std::vector<Bundled> bundle;
 
-    tracking::TagTarget target() const;
+    TagTarget target() const;
     tracking::TrackerOptions tracker_options() const;
   } tag;
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "catchlight.hpp"
+#include "catchlight/error.hpp"
 
 namespace catchlight::app {
 

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <utility>
 
-#include "catchlight.hpp"
+#include "catchlight/error.hpp"
 
 namespace catchlight::app {
 namespace {

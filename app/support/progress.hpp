@@ -7,7 +7,7 @@
 #include <string>
 
 #include "app/support/log.hpp"
-#include "catchlight.hpp"
+#include "catchlight/progress.hpp"
 
 namespace catchlight::app {
 

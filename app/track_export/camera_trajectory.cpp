@@ -1,5 +1,6 @@
 #include "app/track_export/camera_trajectory.hpp"
 
+#include "catchlight/rigid_transform.hpp"
 #include "render/probe/probe.hpp"
 
 namespace catchlight::app {

@@ -8,6 +8,8 @@
 
 #include "app/settings/scene_settings.hpp"
 #include "app/track_export/track_file.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/track.hpp"
 
 namespace catchlight::app {
 

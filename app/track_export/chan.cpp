@@ -1,9 +1,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/support/text.hpp"
 #include "app/track_export/camera_trajectory.hpp"
 #include "app/track_export/formats.hpp"
+#include "catchlight/track.hpp"
+#include "catchlight/util/text.hpp"
 
 namespace catchlight::app {
 namespace {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/track_export/track_export.hpp"
+#include "catchlight/track.hpp"
 
 namespace catchlight::app {
 

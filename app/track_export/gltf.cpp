@@ -4,6 +4,8 @@
 
 #include "app/track_export/camera_trajectory.hpp"
 #include "app/track_export/formats.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/track.hpp"
 
 namespace catchlight::app {
 namespace {

@@ -1,6 +1,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/track_export/formats.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "catchlight/track.hpp"
 
 namespace catchlight::app {
 namespace {

@@ -6,8 +6,8 @@
 #include <map>
 
 #include "app/support/output_file.hpp"
-#include "app/support/text.hpp"
 #include "app/track_export/formats.hpp"
+#include "catchlight/util/text.hpp"
 
 namespace catchlight::app {
 namespace {

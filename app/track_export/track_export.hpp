@@ -6,7 +6,9 @@
 
 #include "app/settings/scene_settings.hpp"
 #include "app/track_export/track_file.hpp"
-#include "catchlight.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/track.hpp"
 
 namespace catchlight::app {
 

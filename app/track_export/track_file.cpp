@@ -6,12 +6,12 @@
 #include <map>
 #include <optional>
 
-#include "app/support/text.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "catchlight/util/text.hpp"
 
 namespace catchlight::app {
 namespace {
-
-using tracking::TrackState;
 
 constexpr std::array<const char*, 12> kPoseColumns{"r00", "r01", "r02", "r10", "r11", "r12",
                                                    "r20", "r21", "r22", "tx",  "ty",  "tz"};
@@ -191,7 +191,7 @@ std::string row_text(const TrackRow& row) {
   text += std::string(",") + name_of(row.state);
   for (const glm::dvec3& rgb : {row.exposure, row.black})
     for (int i = 0; i < 3; ++i) text += ',' + number_text(rgb[i]);
-  const tracking::Covariance2& blur = row.blur_px2;
+  const Covariance2& blur = row.blur_px2;
   for (const double number : {row.corner_sigma_px, row.ambiguity, blur.xx, blur.xy, blur.yy, row.noise_codes})
     text += ',' + number_text(number);
   const TagMotion& motion = row.lens_blur.motion;

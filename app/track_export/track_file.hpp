@@ -10,31 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "app/photometry/lens_model.hpp"
-#include "catchlight.hpp"
-#include "tracking/tracker.hpp"
+#include "catchlight/track.hpp"
 
 namespace catchlight::app {
 
-struct TrackRow {
-  std::int64_t frame = 0;
-  double time_s = 0;
-  bool found = false;
-  RigidTransform camera_from_tag;
-  tracking::TrackState state = tracking::TrackState::lost;
-  bool has_exposure = false;  ///< false: a bare pose, as poses.csv has them
-  glm::dvec3 exposure{1.0};   ///< exposed linear value of white paper on the tag, per unit of albedo (docs/conventions.md)
-  glm::dvec3 black{0.0};
-  double corner_sigma_px = 0;      ///< how uncertain the tag's corners are in the picture, per axis
-  double ambiguity = 0;            ///< probability that the other planar pose is the right one
-  tracking::Covariance2 blur_px2;  ///< of the tag's edges, by lens, motion and pixel; 0: not measured
-  double noise_codes = 0;          ///< on the tag, in 8-bit codes; 0: not measured
-  NoiseModel noise;                ///< of the whole footage, where it was recorded; all 0: not measured
-  LensBlurModel lens_blur;         ///< the last parts of blur_px2, taken apart
-};
-
 /// As the files say it: "tracking", "coasting", "lost".
-const char* name_of(tracking::TrackState state);
+const char* name_of(TrackState state);
 
 /// Columns are found by name; `frame` is needed, and r00 .. tz unless every row has found 0. A file without the others (known
 /// poses) reads too: found, tracking, without exposure. Throws Error "file:line: ..." for what is malformed, not a rotation (more

@@ -1,6 +1,7 @@
-#include "app/support/text.hpp"
 #include "app/track_export/camera_trajectory.hpp"
 #include "app/track_export/formats.hpp"
+#include "catchlight/track.hpp"
+#include "catchlight/util/text.hpp"
 
 namespace catchlight::app {
 

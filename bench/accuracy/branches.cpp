@@ -4,6 +4,7 @@
 
 #include "bench/accuracy/experiments.hpp"
 #include "bench/accuracy/methods.hpp"
+#include "catchlight/rigid_transform.hpp"
 
 namespace catchlight::tracking {
 namespace {

@@ -6,6 +6,9 @@
 #include <random>
 #include <vector>
 
+#include "catchlight/camera.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "catchlight/tag.hpp"
 #include "tests/support/synthetic_tag.hpp"
 
 namespace catchlight::tracking {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "catchlight/color.hpp"
 #include "tests/support/shapes.hpp"
 
 namespace catchlight::render {

@@ -8,8 +8,12 @@
 #include <opencv2/aruco.hpp>
 #endif
 
+#include "catchlight/camera.hpp"
+#include "catchlight/track.hpp"
 #include "tracking/detection/detector.hpp"
+#include "tracking/observation.hpp"
 #include "tracking/shot_tracker.hpp"
+#include "tracking/tracker.hpp"
 
 namespace catchlight::tracking {
 namespace {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bench/accuracy/clip.hpp"
+#include "catchlight/rigid_transform.hpp"
 
 namespace catchlight::tracking {
 

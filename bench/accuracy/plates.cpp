@@ -6,6 +6,7 @@
 
 #include "bench/accuracy/experiments.hpp"
 #include "bench/accuracy/score.hpp"
+#include "catchlight/error.hpp"
 #include "tracking/camera/camera_file.hpp"
 
 namespace catchlight::tracking {

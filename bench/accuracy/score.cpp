@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <fstream>
 
+#include "catchlight/error.hpp"
+
 namespace catchlight::tracking {
 namespace {
 

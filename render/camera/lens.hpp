@@ -5,7 +5,9 @@
 #include <optional>
 #include <span>
 
-#include "catchlight.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/pixel_rect.hpp"
+#include "catchlight/rigid_transform.hpp"
 
 namespace catchlight::render {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "catchlight.hpp"
+#include "catchlight/error.hpp"
 
 namespace catchlight::render {
 namespace {

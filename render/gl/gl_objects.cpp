@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "catchlight.hpp"
+#include "catchlight/error.hpp"
 
 namespace catchlight::render {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "render/compositor.hpp"
 #include "render/gl/gl_objects.hpp"
+#include "render/pass_time.hpp"
 
 namespace catchlight::render {
 

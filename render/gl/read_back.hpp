@@ -1,8 +1,8 @@
 // Pixels from the GPU.
 #pragma once
 
+#include "catchlight/image.hpp"
 #include "render/gl/gl_objects.hpp"
-#include "render/image/image.hpp"
 
 namespace catchlight::render {
 

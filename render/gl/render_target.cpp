@@ -1,5 +1,6 @@
 #include "render/gl/render_target.hpp"
 
+#include "catchlight/error.hpp"
 #include "render/gl/read_back.hpp"
 
 namespace catchlight::render {

@@ -2,9 +2,9 @@
 // corner.
 #pragma once
 
-#include "catchlight.hpp"
+#include "catchlight/image.hpp"
+#include "catchlight/pixel_rect.hpp"
 #include "render/gl/gl_objects.hpp"
-#include "render/image/image.hpp"
 
 namespace catchlight::render {
 

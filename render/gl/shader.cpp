@@ -4,7 +4,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "catchlight.hpp"
+#include "catchlight/error.hpp"
 #include "embedded/embedded_shaders.hpp"
 
 namespace catchlight::render {

@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 #include <string>
 
-#include "catchlight.hpp"
+#include "catchlight/error.hpp"
 
 namespace catchlight::render {
 namespace {

@@ -10,7 +10,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "catchlight.hpp"
+#include "catchlight/error.hpp"
 #include "render/glare/aperture_shapes.hpp"
 #include "render/image/image_io.hpp"
 

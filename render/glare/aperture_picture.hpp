@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "render/image/image.hpp"
+#include "catchlight/image.hpp"
 
 namespace catchlight::render {
 

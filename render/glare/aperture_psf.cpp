@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "catchlight.hpp"
-#include "render/math/parallel.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/util/parallel.hpp"
 
 namespace catchlight::render {
 namespace {

@@ -1,8 +1,8 @@
 // What a lens makes of a point of white light: its aperture's far field at every wavelength, in the frame's pixels.
 #pragma once
 
+#include "catchlight/image.hpp"
 #include "render/glare/aperture_far_field.hpp"
-#include "render/image/image.hpp"
 
 namespace catchlight::render {
 

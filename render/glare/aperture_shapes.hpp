@@ -2,7 +2,7 @@
 // the mean over its area). The same at every size but for resolution, and the same on every machine: no library's random numbers.
 #pragma once
 
-#include "render/image/image.hpp"
+#include "catchlight/image.hpp"
 
 namespace catchlight::render {
 

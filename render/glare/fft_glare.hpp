@@ -5,11 +5,13 @@
 #include <memory>
 #include <optional>
 
-#include "catchlight.hpp"
-#include "render/compositor.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/image.hpp"
+#include "catchlight/pixel_rect.hpp"
 #include "render/glare/aperture_picture.hpp"
 #include "render/glare/aperture_psf.hpp"
 #include "render/math/fft_convolution.hpp"
+#include "render/settings.hpp"
 
 namespace catchlight::render {
 

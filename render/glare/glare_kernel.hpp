@@ -2,9 +2,9 @@
 // same picture. No GL needed.
 #pragma once
 
-#include "render/compositor.hpp"
+#include "catchlight/image.hpp"
 #include "render/glare/glare_plan.hpp"
-#include "render/image/image.hpp"
+#include "render/settings.hpp"
 
 namespace catchlight::render {
 

@@ -7,8 +7,8 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "catchlight.hpp"
-#include "render/compositor.hpp"
+#include "catchlight/pixel_rect.hpp"
+#include "render/settings.hpp"
 
 namespace catchlight::render {
 

@@ -12,7 +12,8 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 
-#include "catchlight.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/image.hpp"
 #include "render/image/image_io.hpp"
 
 namespace catchlight::render {

@@ -7,7 +7,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "catchlight.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/image.hpp"
 #include "render/image/image_io.hpp"
 
 namespace catchlight::render {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "render/image/image.hpp"
+#include "catchlight/image.hpp"
 
 namespace catchlight::render {
 

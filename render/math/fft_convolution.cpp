@@ -5,8 +5,8 @@
 #include <opencv2/core.hpp>
 #include <string>
 
-#include "catchlight.hpp"
-#include "render/math/parallel.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/util/parallel.hpp"
 
 namespace catchlight::render {
 namespace {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <span>
 
-#include "render/image/image.hpp"
+#include "catchlight/image.hpp"
 #include "render/mesh/mesh.hpp"
 
 namespace catchlight::render::gltf {

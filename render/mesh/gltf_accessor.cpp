@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "catchlight/error.hpp"
 #include "render/mesh/gltf.hpp"
 
 namespace catchlight::render::gltf {

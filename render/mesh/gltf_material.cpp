@@ -2,6 +2,9 @@
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>
 
+#include "catchlight/color.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/image.hpp"
 #include "render/mesh/gltf.hpp"
 
 namespace catchlight::render::gltf {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "catchlight.hpp"
+#include "catchlight/error.hpp"
 
 namespace catchlight::render {
 

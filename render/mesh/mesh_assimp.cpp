@@ -4,6 +4,8 @@
 #include <assimp/Importer.hpp>
 #include <cmath>
 
+#include "catchlight/color.hpp"
+#include "catchlight/error.hpp"
 #include "render/mesh/mesh_import.hpp"
 
 namespace catchlight::render {

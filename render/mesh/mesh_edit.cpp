@@ -5,6 +5,7 @@
 #include <glm/gtc/matrix_inverse.hpp>
 #include <unordered_map>
 
+#include "catchlight/error.hpp"
 #include "render/mesh/mesh.hpp"
 
 namespace catchlight::render {

@@ -7,6 +7,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "catchlight/error.hpp"
 #include "render/mesh/gltf.hpp"
 #include "render/mesh/mesh_import.hpp"
 

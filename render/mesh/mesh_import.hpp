@@ -1,6 +1,7 @@
 // Readers behind load_mesh: what the file says, not yet checked. A zero normal stands for a missing one.
 #pragma once
 
+#include "catchlight/error.hpp"
 #include "render/mesh/mesh.hpp"
 
 namespace catchlight::render {

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "catchlight/camera.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/error.hpp"
 #include "render/camera/lens.hpp"
 #include "render/gl/read_back.hpp"
 #include "render/gl/shader.hpp"

@@ -7,7 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "render/compositor.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/pixel_rect.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "render/camera/lens_view.hpp"
+#include "render/frame_view.hpp"
 #include "render/gl/render_target.hpp"
 
 namespace catchlight::render {

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "catchlight.hpp"
-
 namespace catchlight::render {
 
 void LightTransfer::set_light(const ShRgb& light_linear, const ShRgb& split_off) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "catchlight/image.hpp"
+
 namespace catchlight::render {
 
 void read_object_layers(const ObjectTarget* target, const PixelRect& rect, const PixelRect& frame, Layers& layers) {

@@ -1,7 +1,8 @@
 // The layers that only the object pass knows.
 #pragma once
 
-#include "render/compositor.hpp"
+#include "catchlight/composite.hpp"
+#include "catchlight/pixel_rect.hpp"
 #include "render/gl/render_target.hpp"
 
 namespace catchlight::render {

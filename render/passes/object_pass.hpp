@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "catchlight/pixel_rect.hpp"
 #include "render/gl/gl_objects.hpp"
 #include "render/gl/point_capture.hpp"
 #include "render/gl/render_target.hpp"

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "catchlight/pixel_rect.hpp"
 #include "render/gl/render_target.hpp"
 #include "render/passes/light_transfer.hpp"
 #include "render/passes/shadowed_lights.hpp"

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "catchlight.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/image.hpp"
 
 namespace catchlight::render {
 namespace {

@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "render/compositor.hpp"
+#include "catchlight/plate.hpp"
+#include "catchlight/tone_curve.hpp"
 #include "render/gl/render_target.hpp"
 #include "render/passes/glare/classic_glare.hpp"
+#include "render/settings.hpp"
 #include "render/tone/tone_curve.hpp"
 
 namespace catchlight::render {

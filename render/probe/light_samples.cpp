@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "catchlight.hpp"
+#include "catchlight/color.hpp"
 
 namespace catchlight::render {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "catchlight.hpp"
+#include "catchlight/color.hpp"
 #include "render/probe/cube_map.hpp"
 
 namespace catchlight::render {

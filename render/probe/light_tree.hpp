@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "render/image/image.hpp"
+#include "catchlight/image.hpp"
 
 namespace catchlight::render {
 

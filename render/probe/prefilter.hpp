@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "render/image/image.hpp"
+#include "catchlight/image.hpp"
 #include "render/probe/probe.hpp"
 
 namespace catchlight::render {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/math/parallel.hpp"
+#include "catchlight/util/parallel.hpp"
 #include "render/probe/probe_layouts.hpp"
 
 namespace catchlight::render {

@@ -9,8 +9,8 @@
 #include <optional>
 #include <string>
 
-#include "catchlight.hpp"
-#include "render/image/image.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/image.hpp"
 #include "render/math/sh.hpp"
 
 namespace catchlight::render {

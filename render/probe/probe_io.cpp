@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "catchlight/error.hpp"
+#include "catchlight/image.hpp"
 #include "render/image/image_io.hpp"
 #include "render/probe/probe_layouts.hpp"
 

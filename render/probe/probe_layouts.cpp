@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "catchlight/error.hpp"
+
 namespace catchlight::render {
 namespace {
 

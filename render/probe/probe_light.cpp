@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "render/math/parallel.hpp"
+#include "catchlight/util/parallel.hpp"
 #include "render/probe/probe_layouts.hpp"
 
 namespace catchlight::render {

@@ -5,9 +5,9 @@
 #include <glm/gtc/constants.hpp>
 #include <numeric>
 
-#include "render/math/parallel.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/util/parallel.hpp"
 #include "render/probe/light_clusters.hpp"
-#include "render/probe/light_samples.hpp"
 
 namespace catchlight::render {
 namespace {

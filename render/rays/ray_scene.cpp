@@ -5,6 +5,8 @@
 #include <cstring>
 #include <limits>
 
+#include "catchlight/error.hpp"
+
 namespace catchlight::render {
 
 struct RayScene::Handles {

@@ -6,6 +6,8 @@
 #include <new>
 #include <span>
 
+#include "catchlight/error.hpp"
+
 namespace catchlight::render {
 namespace {
 

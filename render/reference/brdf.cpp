@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "catchlight/color.hpp"
+
 namespace catchlight::render::reference {
 namespace {
 

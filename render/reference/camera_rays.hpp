@@ -3,7 +3,8 @@
 
 #include <optional>
 
-#include "catchlight.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/rigid_transform.hpp"
 #include "render/camera/lens.hpp"
 
 namespace catchlight::render::reference {

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "catchlight/image.hpp"
+
 namespace catchlight::render::reference {
 namespace {
 

@@ -1,6 +1,7 @@
 #include "render/reference/path_tracer.hpp"
 
-#include "render/math/parallel.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/util/parallel.hpp"
 
 namespace catchlight::render::reference {
 namespace {

@@ -5,6 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "catchlight/camera.hpp"
+#include "catchlight/image.hpp"
+#include "catchlight/progress.hpp"
+#include "catchlight/rigid_transform.hpp"
 #include "render/reference/light_paths.hpp"
 
 namespace catchlight::render::reference {

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/math/parallel.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/util/parallel.hpp"
 
 namespace catchlight::render::reference {
 namespace {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "catchlight/image.hpp"
 #include "render/probe/probe.hpp"
 
 namespace catchlight::render::reference {

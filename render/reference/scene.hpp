@@ -3,8 +3,9 @@
 
 #include <optional>
 
-#include "catchlight.hpp"
-#include "render/image/image.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/image.hpp"
+#include "catchlight/rigid_transform.hpp"
 #include "render/mesh/mesh.hpp"
 #include "render/probe/probe.hpp"
 

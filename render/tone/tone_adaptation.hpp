@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "catchlight/tone_curve.hpp"
 #include "render/tone/tone_curve.hpp"
 
 namespace catchlight::render {

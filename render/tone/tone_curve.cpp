@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "catchlight.hpp"
+#include "catchlight/color.hpp"
 
 namespace catchlight::render {
 namespace {
@@ -14,8 +14,6 @@ constexpr double kDarkest = 0.5 / 255 / 12.92;
 constexpr double kDeltaShare = 1e-3;
 constexpr double kLowShare = 0.01, kHighShare = 0.99;
 constexpr double kMostGain = 64;
-/// Beyond it light is not told apart; shaders/tone.frag has the same.
-constexpr double kMostLight = 1e9;
 
 double percentile(const LuminanceHistogram& histogram, double pixels, double share) {
   double passed = 0;
@@ -50,23 +48,6 @@ SceneLuminance scene_luminance(const LuminanceHistogram& histogram) {
       log_sum += count * std::log(delta + histogram.mean(bin));
   result.average = std::max(std::exp(log_sum / pixels) - delta, 0.0);
   return result;
-}
-
-double ToneCurve::operator()(double luminance) const {
-  const double exposed = gain * luminance;
-  return exposed * (1 + exposed / (white * white)) / (1 + exposed);
-}
-
-glm::dvec3 ToneCurve::operator()(const glm::dvec3& rgb_linear, const glm::dvec3& weights, bool codes_end_at_1) const {
-  glm::dvec3 light(0.0);
-  for (int c = 0; c < 3; ++c)
-    if (!std::isnan(rgb_linear[c])) light[c] = std::clamp(rgb_linear[c], -kMostLight, kMostLight);
-  const double exposed = gain * std::max(glm::dot(weights, light), 0.0);
-  light *= gain * (1 + exposed / (white * white)) / (1 + exposed);
-  const double luminance = glm::dot(weights, light), peak = std::max({light.r, light.g, light.b});
-  if (codes_end_at_1 && peak > 1)
-    light = luminance >= 1 ? glm::dvec3(1.0) : glm::mix(glm::dvec3(luminance), light, (1 - luminance) / (peak - luminance));
-  return light;
 }
 
 ToneCurve tone_curve(const SceneLuminance& luminance, const ToneSettings& settings) {

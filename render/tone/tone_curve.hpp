@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
+#include "catchlight/tone_curve.hpp"
+
 namespace catchlight::render {
 
 /// Luminances of a frame, binned by the bits of the float: 64 bins an octave from 2^-32 to 2^32, so that no logarithm of the
@@ -36,18 +38,6 @@ struct ToneSettings {
   bool enabled = false;
   double key = 0.18;            ///< what the log-average becomes
   bool has_white_point = true;  ///< false: nothing burns out, L / (1 + L)
-};
-
-/// L (1 + L / white^2) / (1 + L) of L = gain * luminance. The default changes nothing.
-struct ToneCurve {
-  double gain = 1;
-  double white = 1;  ///< the exposed luminance that becomes 1; infinite: none does
-
-  double operator()(double luminance) const;
-
-  /// RGB scaled by the luminance's ratio, so that colour keeps its own. NaN is black, as is what is not light at all. Where codes
-  /// end at 1, a colour beyond is mixed with the grey of its luminance until it fits.
-  glm::dvec3 operator()(const glm::dvec3& rgb_linear, const glm::dvec3& luminance_weights, bool codes_end_at_1) const;
 };
 
 /// The curve that a frame calls for. gain = key / average, at most 2^6: what is darker is noise. White is the 2002 estimate

@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 
+#include "catchlight/image.hpp"
 #include "render/probe/probe.hpp"
 
 namespace catchlight::render {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <span>
 
+#include "catchlight/util/parallel.hpp"
 #include "render/math/hemisphere_rays.hpp"
-#include "render/math/parallel.hpp"
 #include "render/math/sh.hpp"
 #include "render/rays/ray_scene.hpp"
 #include "render/transfer/interior_vertices.hpp"

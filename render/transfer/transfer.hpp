@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "catchlight.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/progress.hpp"
 #include "render/mesh/mesh.hpp"
 #include "render/transfer/receiver_albedo.hpp"
 #include "render/transfer/receiver_grid.hpp"

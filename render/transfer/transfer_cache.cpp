@@ -9,6 +9,8 @@
 #include <random>
 #include <type_traits>
 
+#include "catchlight/error.hpp"
+#include "catchlight/progress.hpp"
 #include "render/transfer/transfer.hpp"
 
 namespace catchlight::render {

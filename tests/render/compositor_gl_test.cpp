@@ -4,6 +4,15 @@
 #include <cmath>
 #include <limits>
 
+#include "catchlight/color.hpp"
+#include "catchlight/composite.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/image.hpp"
+#include "catchlight/pixel_rect.hpp"
+#include "catchlight/plate.hpp"
+#include "render/compositor.hpp"
+#include "render/frame_view.hpp"
+#include "render/render_scene.hpp"
 #include "tests/support/gl_fixture.hpp"
 
 namespace catchlight::render::test {

@@ -1,4 +1,11 @@
 // A few whole pictures, and the comparator that guards them.
+#include "catchlight/color.hpp"
+#include "catchlight/composite.hpp"
+#include "render/compositor.hpp"
+#include "render/frame_view.hpp"
+#include "render/render_scene.hpp"
+#include "render/settings.hpp"
+#include "tests/support/gl_fixture.hpp"
 #include "tests/support/golden.hpp"
 
 #include <gmock/gmock.h>
@@ -8,8 +15,6 @@
 #include <numbers>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-
-#include "tests/support/gl_fixture.hpp"
 
 namespace catchlight::render::test {
 namespace {

@@ -24,8 +24,8 @@ std::optional<double> sphere_hit(const glm::dvec3& ray, const glm::dvec3& centre
   return along - std::sqrt(inside);
 }
 
-render::Image surroundings(const BallScene& scene) {
-  render::Image image(scene.camera.width_px, scene.camera.height_px);
+Image surroundings(const BallScene& scene) {
+  Image image(scene.camera.width_px, scene.camera.height_px);
   std::fill(image.data.begin(), image.data.end(), static_cast<float>(kSurround));
   if (!scene.camera_from_tag) return image;
   tracking::SyntheticScene printed{scene.camera, {{scene.tag, *scene.camera_from_tag}}};
@@ -56,8 +56,8 @@ CameraModel ball_camera() {
   return camera;
 }
 
-render::Image photograph(const BallScene& scene) {
-  render::Image image = surroundings(scene);
+Image photograph(const BallScene& scene) {
+  Image image = surroundings(scene);
   const CameraModel& camera = scene.camera;
   const glm::dvec3 towards_camera = -glm::normalize(scene.centre_camera_m);
   for (int y = 0; y < image.height; ++y)
@@ -99,7 +99,7 @@ double film_light(double code) {
   return low;
 }
 
-std::vector<std::string> write_bracket(const render::Image& radiance, const std::vector<double>& times_s, double noise_codes,
+std::vector<std::string> write_bracket(const Image& radiance, const std::vector<double>& times_s, double noise_codes,
                                        const std::string& name_start) {
   std::vector<std::string> names;
   std::mt19937 random(7);

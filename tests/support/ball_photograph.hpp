@@ -7,9 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "catchlight.hpp"
-#include "render/image/image.hpp"
-#include "tracking/tracker.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/image.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "catchlight/tag.hpp"
 
 namespace catchlight::tests {
 
@@ -30,11 +31,11 @@ struct BallScene {
   Environment environment = room;
   double photographer_rad = 0;  ///< within this angle of the camera's direction, a bright magenta person is reflected
   std::optional<RigidTransform> camera_from_tag;
-  tracking::TagTarget tag;
+  TagTarget tag;
 };
 
 /// Scene-linear; grey around the ball, and the tag on it where there is one.
-render::Image photograph(const BallScene& scene);
+Image photograph(const BallScene& scene);
 
 /// Normalised code of light; rises from (0, 0) to (1, 1).
 double film_code(double light);
@@ -42,7 +43,7 @@ double film_code(double light);
 double film_light(double code);
 
 /// 8-bit PNGs of radiance · time, through film_code() with noise and clipping; returns the files' names.
-std::vector<std::string> write_bracket(const render::Image& radiance, const std::vector<double>& times_s, double noise_codes,
+std::vector<std::string> write_bracket(const Image& radiance, const std::vector<double>& times_s, double noise_codes,
                                        const std::string& name_start);
 
 }  // namespace catchlight::tests

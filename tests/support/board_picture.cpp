@@ -9,6 +9,7 @@
 #include <random>
 #include <vector>
 
+#include "catchlight/color.hpp"
 #include "tracking/detection/families.hpp"
 
 namespace catchlight::tests {

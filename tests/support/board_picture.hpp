@@ -5,7 +5,8 @@
 #include <functional>
 #include <opencv2/core.hpp>
 
-#include "catchlight.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/rigid_transform.hpp"
 
 namespace catchlight::tests {
 

@@ -5,6 +5,9 @@
 #include <cmath>
 
 #include "app/settings/scene_settings.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/plate.hpp"
 #include "tests/support/media_fixture.hpp"
 
 namespace catchlight::app::testing {
@@ -23,7 +26,7 @@ inline SceneSettings scene_of_tag_5() {
 /// The light of a frame of 8-bit sRGB times `gain`, clipped at the sensor's white, in 8 bits again.
 inline Frame reexposed(const Frame& frame, const glm::dvec3& gain) {
   const int width = frame.width_px(), height = frame.height_px();
-  const render::Plate plate = frame.rgb({0, 0, width, height});
+  const Plate plate = frame.rgb({0, 0, width, height});
   FramePtr picture = noise_frame(AV_PIX_FMT_RGB24, width, height, 1);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < 3 * width; ++x) {

@@ -6,6 +6,10 @@
 #include <glm/gtc/constants.hpp>
 #include <numbers>
 
+#include "catchlight/color.hpp"
+#include "catchlight/image.hpp"
+#include "catchlight/pixel_rect.hpp"
+
 namespace catchlight::render::test {
 namespace {
 

@@ -5,8 +5,16 @@
 
 #include <memory>
 
-#include "render/compositor.hpp"
+#include "catchlight/composite.hpp"
+#include "catchlight/plate.hpp"
+#include "render/frame_view.hpp"
 #include "render/gl/gl_context.hpp"
+#include "render/math/sh.hpp"
+#include "render/mesh/mesh.hpp"
+#include "render/probe/prefilter.hpp"
+#include "render/render_scene.hpp"
+#include "render/settings.hpp"
+#include "render/transfer/transfer.hpp"
 
 namespace catchlight::render::test {
 

@@ -1,5 +1,7 @@
 #include "tests/support/glare_fixture.hpp"
 
+#include "render/settings.hpp"
+
 namespace catchlight::render::test {
 
 GlTexture upload(const Image& rgb) {

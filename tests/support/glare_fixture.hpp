@@ -1,6 +1,8 @@
 // Runs the glare passes on a picture that stands for the drawn object.
 #pragma once
 
+#include "catchlight/image.hpp"
+#include "catchlight/pixel_rect.hpp"
 #include "render/passes/glare/glare_pass.hpp"
 #include "tests/support/gl_fixture.hpp"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "render/image/image.hpp"
+#include "catchlight/image.hpp"
 
 namespace catchlight::render::test {
 

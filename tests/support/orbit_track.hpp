@@ -10,6 +10,9 @@
 #include <vector>
 
 #include "app/track_export/track_export.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "catchlight/track.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tracking/camera/lens.hpp"
 
@@ -40,7 +43,7 @@ inline TrackRow row_of(std::int64_t frame, const RigidTransform& camera_from_tag
   row.frame = frame;
   row.time_s = static_cast<double>(frame) / 25;
   row.found = true;
-  row.state = tracking::TrackState::tracking;
+  row.state = TrackState::tracking;
   row.camera_from_tag = camera_from_tag;
   row.has_exposure = true;
   return row;
@@ -65,7 +68,7 @@ inline std::vector<TrackRow> orbit() {
     TrackRow row = row_of(frame, looking_at_tag(0.6 * direction, 6.0 * frame));
     if (frame == 7 || frame == 20 || frame == 21) {
       row.found = false;
-      row.state = tracking::TrackState::lost;
+      row.state = TrackState::lost;
     }
     rows.push_back(row);
   }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "catchlight.hpp"
+#include "catchlight/rigid_transform.hpp"
 
 namespace catchlight::tracking {
 

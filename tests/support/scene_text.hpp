@@ -7,7 +7,7 @@
 #include <string>
 
 #include "app/settings/scene_file.hpp"
-#include "catchlight.hpp"
+#include "catchlight/error.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace catchlight::tests {

@@ -7,6 +7,8 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "catchlight/color.hpp"
+#include "catchlight/pixel_rect.hpp"
 #include "tracking/detection/families.hpp"
 
 namespace catchlight::tracking {

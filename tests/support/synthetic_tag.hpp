@@ -6,8 +6,10 @@
 #include <random>
 #include <vector>
 
-#include "catchlight.hpp"
-#include "tracking/tracker.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/luma_view.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "catchlight/tag.hpp"
 
 namespace catchlight::tracking {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "catchlight.hpp"
+#include "catchlight/error.hpp"
 
 namespace catchlight::render {
 

@@ -8,9 +8,14 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
+#include "catchlight/camera.hpp"
+#include "catchlight/luma_view.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "catchlight/track.hpp"
 #include "tests/support/pose_error.hpp"
 #include "tests/support/synthetic_tag.hpp"
 #include "tracking/camera/camera_file.hpp"
+#include "tracking/observation.hpp"
 #include "tracking/tracker.hpp"
 
 namespace catchlight::tracking {

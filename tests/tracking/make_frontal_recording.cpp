@@ -5,6 +5,8 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
+#include "catchlight/camera.hpp"
+#include "catchlight/rigid_transform.hpp"
 #include "tests/support/synthetic_tag.hpp"
 
 namespace catchlight::tracking {

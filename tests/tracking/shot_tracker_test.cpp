@@ -1,10 +1,14 @@
 // Recorded footage, rendered: what later frames tell about earlier ones.
+#include "catchlight/camera.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "catchlight/tag.hpp"
+#include "catchlight/track.hpp"
+#include "tests/support/pose_error.hpp"
+#include "tests/support/synthetic_tag.hpp"
 #include "tracking/shot_tracker.hpp"
 
 #include <gtest/gtest.h>
-
-#include "tests/support/pose_error.hpp"
-#include "tests/support/synthetic_tag.hpp"
 
 namespace catchlight::tracking {
 namespace {

@@ -1,8 +1,13 @@
 // Each way in which tag tracking is known to fail, by name. Stress rises over a few frames, as it does in footage.
 #include <gtest/gtest.h>
 
+#include "catchlight/camera.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "catchlight/tag.hpp"
+#include "catchlight/track.hpp"
 #include "tests/support/pose_error.hpp"
 #include "tests/support/synthetic_tag.hpp"
+#include "tracking/observation.hpp"
 #include "tracking/tracker.hpp"
 
 namespace catchlight::tracking {

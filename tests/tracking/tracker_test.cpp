@@ -1,11 +1,16 @@
 // The tracker as its users see it: states, coasting, re-entry, two copies of one tag, and what it refuses.
+#include "catchlight/camera.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/tag.hpp"
+#include "catchlight/track.hpp"
+#include "tests/support/pose_error.hpp"
+#include "tests/support/synthetic_tag.hpp"
+#include "tracking/observation.hpp"
 #include "tracking/tracker.hpp"
+#include "tracking/tracker_options.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include "tests/support/pose_error.hpp"
-#include "tests/support/synthetic_tag.hpp"
 
 namespace catchlight::tracking {
 namespace {

@@ -6,8 +6,17 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
+#include "catchlight/camera.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/luma_view.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "catchlight/tag.hpp"
+#include "catchlight/track.hpp"
 #include "tests/support/synthetic_tag.hpp"
+#include "tracking/observation.hpp"
 #include "tracking/tracker.hpp"
+#include "tracking/tracker_options.hpp"
 
 namespace catchlight::tracking {
 namespace {

@@ -6,6 +6,8 @@
 #include <sstream>
 #include <vector>
 
+#include "catchlight/error.hpp"
+
 namespace catchlight::tracking {
 namespace {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "catchlight.hpp"
+#include "catchlight/camera.hpp"
 
 namespace catchlight::tracking {
 

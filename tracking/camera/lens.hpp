@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "catchlight.hpp"
+#include "catchlight/camera.hpp"
 
 namespace catchlight::tracking {
 

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <vector>
 
+#include "catchlight/color.hpp"
 #include "tracking/camera/lens.hpp"
 #include "tracking/detection/families.hpp"
 #include "tracking/refinement/ideal_pixels.hpp"

@@ -4,8 +4,11 @@
 #include <optional>
 #include <span>
 
-#include "catchlight.hpp"
-#include "tracking/tracker.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/pixel_rect.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "catchlight/tag.hpp"
+#include "catchlight/track.hpp"
 
 namespace catchlight::tracking {
 

@@ -4,6 +4,10 @@
 #include <optional>
 #include <vector>
 
+#include "catchlight/camera.hpp"
+#include "catchlight/pixel_rect.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "catchlight/tag.hpp"
 #include "tracking/camera/photometry.hpp"
 
 namespace catchlight::tracking {

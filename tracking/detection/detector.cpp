@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "catchlight/error.hpp"
 #include "tracking/detection/families.hpp"
 
 namespace catchlight::tracking {

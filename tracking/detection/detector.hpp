@@ -5,7 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "tracking/tracker.hpp"
+#include "catchlight/luma_view.hpp"
+#include "tracking/tracker_options.hpp"
 
 namespace catchlight::tracking {
 

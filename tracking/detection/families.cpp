@@ -11,7 +11,7 @@
 #include <apriltag/tagStandard41h12.h>
 #include <apriltag/tagStandard52h13.h>
 
-#include "tracking/tracker.hpp"
+#include "catchlight/error.hpp"
 
 namespace catchlight::tracking {
 namespace {

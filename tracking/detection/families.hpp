@@ -10,6 +10,9 @@ struct apriltag_family;
 
 namespace catchlight::tracking {
 
+/// Every family the AprilTag library has, by the names it is known by.
+const std::vector<std::string>& tag_families();
+
 using FamilyPtr = std::unique_ptr<apriltag_family, void (*)(apriltag_family*)>;
 
 /// Throws Error naming the families there are.

@@ -6,7 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include "catchlight/camera.hpp"
+#include "catchlight/luma_view.hpp"
+#include "catchlight/pixel_rect.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "catchlight/tag.hpp"
 #include "tracking/detection/detector.hpp"
+#include "tracking/tracker_options.hpp"
 
 namespace catchlight::tracking {
 

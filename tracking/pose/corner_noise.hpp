@@ -4,8 +4,9 @@
 #include <span>
 #include <vector>
 
+#include "catchlight/camera.hpp"
+#include "tracking/observation.hpp"
 #include "tracking/pose/planar_pose.hpp"
-#include "tracking/tracker.hpp"
 
 namespace catchlight::tracking {
 

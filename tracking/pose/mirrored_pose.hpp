@@ -4,8 +4,10 @@
 #include <optional>
 #include <vector>
 
+#include "catchlight/camera.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "catchlight/tag.hpp"
 #include "tracking/pose/planar_pose.hpp"
-#include "tracking/tracker.hpp"
 
 namespace catchlight::tracking {
 

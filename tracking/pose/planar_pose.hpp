@@ -5,7 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "catchlight.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/rigid_transform.hpp"
 
 namespace catchlight::tracking {
 

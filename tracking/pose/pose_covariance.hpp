@@ -3,8 +3,9 @@
 
 #include <array>
 
-#include "catchlight.hpp"
-#include "tracking/tracker.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "tracking/observation.hpp"
 
 namespace catchlight::tracking {
 

@@ -5,7 +5,8 @@
 #include <optional>
 #include <span>
 
-#include "tracking/tracker.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "tracking/observation.hpp"
 
 namespace catchlight::tracking {
 

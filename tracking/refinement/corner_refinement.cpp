@@ -3,6 +3,7 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "catchlight/color.hpp"
 #include "tracking/camera/lens.hpp"
 #include "tracking/refinement/edge_fit.hpp"
 

@@ -3,9 +3,10 @@
 
 #include <array>
 
+#include "catchlight/camera.hpp"
+#include "catchlight/luma_view.hpp"
 #include "tracking/detection/families.hpp"
 #include "tracking/pose/planar_pose.hpp"
-#include "tracking/tracker.hpp"
 
 namespace catchlight::tracking {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "catchlight/util/statistics.hpp"
 #include "tracking/pose/rotation.hpp"
 #include "tracking/refinement/tag_view.hpp"
-#include "tracking/statistics.hpp"
 
 namespace catchlight::tracking {
 namespace {

@@ -5,6 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "catchlight/camera.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "catchlight/track.hpp"
 #include "tracking/refinement/response_table.hpp"
 #include "tracking/refinement/tag_pattern.hpp"
 #include "tracking/refinement/tag_pixels.hpp"

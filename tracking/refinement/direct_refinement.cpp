@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "catchlight/util/statistics.hpp"
 #include "tracking/pose/mirrored_pose.hpp"
 #include "tracking/pose/planar_pose.hpp"
 #include "tracking/refinement/direct_model.hpp"
 #include "tracking/refinement/occlusion.hpp"
-#include "tracking/statistics.hpp"
 
 namespace catchlight::tracking {
 namespace {

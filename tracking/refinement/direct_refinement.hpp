@@ -6,7 +6,12 @@
 #include <optional>
 #include <vector>
 
-#include "tracking/tracker.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/luma_view.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "catchlight/tag.hpp"
+#include "catchlight/track.hpp"
+#include "tracking/observation.hpp"
 
 namespace catchlight::tracking {
 

@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "tracking/statistics.hpp"
+#include "catchlight/util/statistics.hpp"
 
 namespace catchlight::tracking {
 namespace {

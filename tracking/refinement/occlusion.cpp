@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "catchlight/rigid_transform.hpp"
+
 namespace catchlight::tracking {
 namespace {
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "catchlight/camera.hpp"
 #include "tracking/refinement/direct_model.hpp"
 
 namespace catchlight::tracking {

@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "tracking/tracker.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/luma_view.hpp"
 
 namespace catchlight::tracking {
 

@@ -5,8 +5,8 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "catchlight/track.hpp"
 #include "tracking/detection/families.hpp"
-#include "tracking/tracker.hpp"
 
 namespace catchlight::tracking {
 

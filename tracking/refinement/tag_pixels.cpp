@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "catchlight/pixel_rect.hpp"
 #include "tracking/camera/lens.hpp"
 
 namespace catchlight::tracking {

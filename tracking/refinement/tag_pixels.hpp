@@ -3,6 +3,9 @@
 
 #include <vector>
 
+#include "catchlight/camera.hpp"
+#include "catchlight/luma_view.hpp"
+#include "catchlight/track.hpp"
 #include "tracking/refinement/ideal_pixels.hpp"
 #include "tracking/refinement/response_table.hpp"
 #include "tracking/refinement/tag_pattern.hpp"

@@ -3,8 +3,9 @@
 
 #include <optional>
 
-#include "catchlight.hpp"
-#include "tracking/tracker.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "catchlight/track.hpp"
 
 namespace catchlight::tracking {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "tracking/tracker.hpp"
+#include "tracking/observation.hpp"
 
 namespace catchlight::tracking {
 

@@ -4,7 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "tracking/tracker.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "tracking/observation.hpp"
 
 namespace catchlight::tracking {
 

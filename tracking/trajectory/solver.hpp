@@ -4,7 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "tracking/tracker.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "catchlight/track.hpp"
+#include "tracking/observation.hpp"
 #include "tracking/trajectory/branches.hpp"
 
 namespace catchlight::tracking {

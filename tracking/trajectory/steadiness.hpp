@@ -3,7 +3,7 @@
 
 #include <glm/glm.hpp>
 
-#include "tracking/tracker.hpp"
+#include "tracking/observation.hpp"
 
 namespace catchlight::tracking {
 

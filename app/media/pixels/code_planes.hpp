@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/media/pixels/frame.hpp"
+#include "catchlight/pixel_rect.hpp"
 
 namespace catchlight::app {
 

@@ -2,6 +2,8 @@
 
 extern "C" {
 #include <libavutil/frame.h>
+
+#include "catchlight/color.hpp"
 }
 
 namespace catchlight::app {
@@ -80,8 +82,8 @@ glm::dvec3 luma_weights(AVColorSpace tag) {
 
 }  // namespace
 
-render::PlateColor plate_color(const AVFrame& picture) {
-  render::PlateColor color;
+PlateColor plate_color(const AVFrame& picture) {
+  PlateColor color;
   color.transfer = transfer_of(picture.color_trc);
   const Primaries primaries = primaries_of(picture.color_primaries);
   // Exactly the identity for Rec. 709, not a product with its inverse.

@@ -4,12 +4,12 @@
 #include <glm/glm.hpp>
 
 #include "app/media/pixels/pixel_layout.hpp"
-#include "render/compositor.hpp"
+#include "catchlight/plate.hpp"
 
 namespace catchlight::app {
 
 /// The transfer function and primaries that the tags declare; see Frame::color().
-render::PlateColor plate_color(const AVFrame& picture);
+PlateColor plate_color(const AVFrame& picture);
 
 /// Tagged full range, or a format that is full range where nothing is said (RGB, grey).
 bool is_full_range(const AVFrame& picture, const PixelLayout& layout);

@@ -5,6 +5,7 @@
 
 #include "app/media/pixels/color_tags.hpp"
 #include "app/media/pixels/pixel_layout.hpp"
+#include "catchlight/color.hpp"
 
 extern "C" {
 #include <libavutil/opt.h>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "app/media/ffmpeg_handles.hpp"
-#include "catchlight.hpp"
+#include "catchlight/pixel_rect.hpp"
 
 namespace catchlight::app {
 

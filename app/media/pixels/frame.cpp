@@ -8,6 +8,8 @@
 #include "app/media/pixels/convert.hpp"
 #include "app/media/pixels/pixel_layout.hpp"
 #include "app/media/write/composite_writer.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/error.hpp"
 
 extern "C" {
 #include <libavutil/pixdesc.h>
@@ -36,13 +38,13 @@ PixelRect padded(const PixelRect& rect, const PixelLayout& layout, int width_px,
   return intersect({x, y, right - x, bottom - y}, {0, 0, width_px, height_px});
 }
 
-render::Plate integer_plate(const AVFrame& picture, const PixelLayout& layout, const PixelRect& rect) {
+Plate integer_plate(const AVFrame& picture, const PixelLayout& layout, const PixelRect& rect) {
   const bool deep = layout.depth() > 8;
   const int pixel_bytes = deep ? 6 : 3;
   const PixelRect part = padded(rect, layout, picture.width, picture.height);
   const FramePtr rgb = convert_part(picture, part, deep ? AV_PIX_FMT_RGB48 : AV_PIX_FMT_RGB24);
 
-  render::Plate plate{rect, deep ? render::Plate::Format::rgb_u16 : render::Plate::Format::rgb_u8, {}};
+  Plate plate{rect, deep ? Plate::Format::rgb_u16 : Plate::Format::rgb_u8, {}};
   const std::size_t row_bytes = static_cast<std::size_t>(rect.width) * static_cast<std::size_t>(pixel_bytes);
   plate.pixels.resize(row_bytes * static_cast<std::size_t>(rect.height));
   for (int y = 0; y < rect.height; ++y) {
@@ -53,8 +55,8 @@ render::Plate integer_plate(const AVFrame& picture, const PixelLayout& layout, c
   return plate;
 }
 
-render::Plate float_plate(const AVFrame& picture, const PixelLayout& layout, const PixelRect& rect) {
-  render::Plate plate{rect, render::Plate::Format::rgb_f32, {}};
+Plate float_plate(const AVFrame& picture, const PixelLayout& layout, const PixelRect& rect) {
+  Plate plate{rect, Plate::Format::rgb_f32, {}};
   const auto pixels = static_cast<std::size_t>(rect.width) * static_cast<std::size_t>(rect.height);
   plate.pixels.resize(pixels * 3 * sizeof(float));
   for (int i = 0; i < 3; ++i) {
@@ -111,7 +113,7 @@ class LumaMaker {
 
 /// Luma codes of a curve as sRGB's, so that tracking finds edges in the middle of light. Scaled where the curve goes beyond
 /// white, and cut at twice white, where a tag is too bright to be tracked well anyway. Luma is nearest to green.
-void recode(std::vector<std::uint8_t>& luma, const ResponseCurve& curve, const tracking::LumaView& coded) {
+void recode(std::vector<std::uint8_t>& luma, const ResponseCurve& curve, const LumaView& coded) {
   constexpr int kGreen = 1;
   const double scale = std::clamp(curve.linear_from_code(1, kGreen), 1.0, 2.0);
   std::array<std::uint8_t, 256> table;
@@ -143,16 +145,16 @@ bool Frame::is_float() const {
   return layout_of(*picture_).is_float;
 }
 
-tracking::LumaView Frame::luma() const {
+LumaView Frame::luma() const {
   const PixelLayout layout = layout_of(*picture_);
-  tracking::LumaView view;
+  LumaView view;
   view.width_px = width_px();
   view.height_px = height_px();
   if (!is_full_range(*picture_, layout)) {
     view.black_code = 16;
     view.white_code = 235;
   }
-  const render::PlateColor color = this->color();
+  const PlateColor color = this->color();
   const bool is_linear = color.transfer == TransferFunction::linear && !color.curve;
   view.transfer = color.transfer;
   if (layout.is_float && view.transfer == TransferFunction::linear) view.transfer = TransferFunction::srgb;
@@ -182,16 +184,16 @@ tracking::LumaView Frame::luma() const {
   return view;
 }
 
-render::Plate Frame::rgb(const PixelRect& rect) const {
+Plate Frame::rgb(const PixelRect& rect) const {
   const PixelRect inside = intersect(rect, {0, 0, width_px(), height_px()});
   const PixelLayout layout = layout_of(*picture_);
   if (layout.is_float) return float_plate(*picture_, layout, inside);
-  if (inside.empty()) return {inside, render::Plate::Format::rgb_u8, {}};
+  if (inside.empty()) return {inside, Plate::Format::rgb_u8, {}};
   return integer_plate(*picture_, layout, inside);
 }
 
-render::PlateColor Frame::color() const {
-  render::PlateColor color = plate_color(*picture_);
+PlateColor Frame::color() const {
+  PlateColor color = plate_color(*picture_);
   if (response_) color.transfer = response_->transfer, color.curve = response_->curve;
   return color;
 }
@@ -201,13 +203,13 @@ glm::ivec2 Frame::color_block_shift() const {
   return {layout.chroma_shift_x, layout.chroma_shift_y};
 }
 
-Frame Frame::with_composite(const render::Composite& composite) const {
+Frame Frame::with_composite(const Composite& composite) const {
   const PixelRect rect = intersect(composite.rect, {0, 0, width_px(), height_px()});
   if (rect.empty()) return *this;
   const PixelLayout layout = layout_of(*picture_);
   FramePtr changed = make_frame_like(*picture_, static_cast<AVPixelFormat>(picture_->format));
   check_ffmpeg(av_frame_copy(changed.get(), picture_.get()), "cannot copy a frame");
-  const render::Plate plate = layout.is_subsampled() ? rgb(blocks_of(layout, rect, width_px(), height_px())) : render::Plate{};
+  const Plate plate = layout.is_subsampled() ? rgb(blocks_of(layout, rect, width_px(), height_px())) : Plate{};
   write_composite(*changed, layout, composite, plate);
   return {std::shared_ptr<const AVFrame>(std::move(changed)), number_, time_s_, response_};
 }

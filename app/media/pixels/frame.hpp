@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <memory>
 
-#include "catchlight.hpp"
-#include "render/compositor.hpp"
-#include "tracking/tracker.hpp"
+#include "catchlight/composite.hpp"
+#include "catchlight/luma_view.hpp"
+#include "catchlight/pixel_rect.hpp"
+#include "catchlight/plate.hpp"
+#include "catchlight/response_curve.hpp"
 
 struct AVFrame;
 
@@ -28,14 +30,14 @@ class Frame {
 
   /// The luma plane as it is where it is 8-bit YUV or grey; else made once: deeper planes rounded to 8 bits, RGB weighted by Rec.
   /// 709 on codes, float linear frames coded as sRGB first. Where the response is a curve, its light is coded as sRGB.
-  tracking::LumaView luma() const;
+  LumaView luma() const;
 
   /// RGB codes of a part of the frame, by swscale with the stream's own matrix and range, accurate rounding and full chroma
   /// interpolation: the same values as converting the whole frame.
-  render::Plate rgb(const PixelRect& rect) const;
+  Plate rgb(const PixelRect& rect) const;
 
   /// The primaries that the stream declares, and its transfer function or the response given (unspecified: sRGB, Rec. 709).
-  render::PlateColor color() const;
+  PlateColor color() const;
 
   /// log2 of the pixels across and down that share a colour sample: (1, 1) in 4:2:0, (0, 0) where every pixel has its own.
   glm::ivec2 color_block_shift() const;
@@ -43,7 +45,7 @@ class Frame {
   /// A frame in the same pixel format whose changed pixels (alpha 1) show the composite; every other sample is the decoder's own.
   /// In subsampled formats a chroma sample whose pixels all changed is the mean of theirs; where some did, it moves by the mean
   /// of the changes.
-  Frame with_composite(const render::Composite& composite) const;
+  Frame with_composite(const Composite& composite) const;
 
  private:
   std::shared_ptr<const AVFrame> picture_;

@@ -6,6 +6,8 @@ extern "C" {
 #include <libavfilter/buffersink.h>
 #include <libavfilter/buffersrc.h>
 #include <libavutil/display.h>
+
+#include "catchlight/error.hpp"
 }
 
 namespace catchlight::app {

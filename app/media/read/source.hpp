@@ -7,7 +7,8 @@
 #include <string>
 
 #include "app/media/pixels/frame.hpp"
-#include "catchlight.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/response_curve.hpp"
 
 struct AVStream;
 

@@ -5,6 +5,7 @@
 
 #include "app/media/pixels/convert.hpp"
 #include "app/media/pixels/pixel_layout.hpp"
+#include "catchlight/error.hpp"
 
 extern "C" {
 #include <libavutil/pixdesc.h>

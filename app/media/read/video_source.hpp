@@ -4,6 +4,7 @@
 #include "app/media/ffmpeg_handles.hpp"
 #include "app/media/pixels/orientation.hpp"
 #include "app/media/read/source.hpp"
+#include "catchlight/response_curve.hpp"
 
 namespace catchlight::app {
 

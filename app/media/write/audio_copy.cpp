@@ -1,5 +1,7 @@
 #include "app/media/write/audio_copy.hpp"
 
+#include "catchlight/error.hpp"
+
 namespace catchlight::app {
 
 AudioCopy::AudioCopy(const std::string& source_location, AVFormatContext& output) {

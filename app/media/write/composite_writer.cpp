@@ -1,6 +1,7 @@
 #include "app/media/write/composite_writer.hpp"
 
 #include "app/media/pixels/color_tags.hpp"
+#include "catchlight/color.hpp"
 
 extern "C" {
 #include <libavutil/frame.h>
@@ -12,7 +13,7 @@ namespace {
 // The composite, addressed by the frame's pixels.
 class ChangedPixels {
  public:
-  explicit ChangedPixels(const render::Composite& composite) : composite_(composite) {}
+  explicit ChangedPixels(const Composite& composite) : composite_(composite) {}
 
   bool changed(int x, int y) const {
     const PixelRect& rect = composite_.rect;
@@ -33,15 +34,15 @@ class ChangedPixels {
         static_cast<std::size_t>(y - rect.y) * static_cast<std::size_t>(rect.width) + static_cast<std::size_t>(x - rect.x);
     return composite_.rgba.data() + 4 * pixel;
   }
-  const render::Composite& composite_;
+  const Composite& composite_;
 };
 
-glm::dvec3 plate_rgb(const render::Plate& plate, int x, int y) {
+glm::dvec3 plate_rgb(const Plate& plate, int x, int y) {
   const auto first = 3 * (static_cast<std::size_t>(y - plate.rect.y) * static_cast<std::size_t>(plate.rect.width) +
                           static_cast<std::size_t>(x - plate.rect.x));
   glm::dvec3 rgb;
   for (std::size_t i = 0; i < 3; ++i) {
-    if (plate.format == render::Plate::Format::rgb_u8) {
+    if (plate.format == Plate::Format::rgb_u8) {
       rgb[static_cast<int>(i)] = std::to_integer<int>(plate.pixels[first + i]) / 255.0;
     } else {
       std::uint16_t code;
@@ -61,7 +62,7 @@ void for_each_pixel(const PixelRect& rect, Visit visit) {
 
 class CompositeWriter {
  public:
-  CompositeWriter(AVFrame& picture, const PixelLayout& layout, const render::Composite& composite)
+  CompositeWriter(AVFrame& picture, const PixelLayout& layout, const Composite& composite)
       : picture_(picture),
         layout_(layout),
         pixels_(composite),
@@ -89,7 +90,7 @@ class CompositeWriter {
     }
   }
 
-  void write_subsampled(const render::Plate& plate) const {
+  void write_subsampled(const Plate& plate) const {
     const PixelRect blocks = blocks_of(layout_, rect_, picture_.width, picture_.height);
     const int block_width = 1 << layout_.chroma_shift_x, block_height = 1 << layout_.chroma_shift_y;
     for (int y = blocks.y; y < blocks.y + blocks.height; y += block_height) {
@@ -105,7 +106,7 @@ class CompositeWriter {
   int rounded(double code) const { return static_cast<int>(std::lround(std::clamp(code, 0.0, code_from_rgb_.max_code()))); }
 
   // `block`: the pixels that share one chroma sample.
-  void write_chroma(const render::Plate& plate, const PixelRect& block) const {
+  void write_chroma(const Plate& plate, const PixelRect& block) const {
     int changed = 0;
     glm::dvec3 sum(0.0), moved(0.0);
     for_each_pixel(block, [&](int x, int y) {
@@ -140,8 +141,8 @@ PixelRect blocks_of(const PixelLayout& layout, const PixelRect& rect, int width_
   return intersect({x, y, right - x, bottom - y}, {0, 0, width_px, height_px});
 }
 
-void write_composite(AVFrame& picture, const PixelLayout& layout, const render::Composite& composite,
-                     const render::Plate& plate) {
+void write_composite(AVFrame& picture, const PixelLayout& layout, const Composite& composite,
+                     const Plate& plate) {
   const CompositeWriter writer(picture, layout, composite);
   if (layout.is_float) {
     writer.write_values();

@@ -5,13 +5,14 @@
 #include "app/media/read/sequence.hpp"
 #include "app/photometry/linear_patch.hpp"
 #include "app/support/output_file.hpp"
+#include "catchlight/composite.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/image.hpp"
 #include "render/image/image_io.hpp"
 
 namespace catchlight::app {
 
 namespace {
-
-using render::Image;
 
 Image filled(int width, int height, int channels, float value) {
   Image image(width, height, channels);
@@ -20,9 +21,9 @@ Image filled(int width, int height, int channels, float value) {
 }
 
 /// Of a frame that nothing virtual reached.
-render::Layers untouched_layers(const Frame& frame) {
+Layers untouched_layers(const Frame& frame) {
   const int width = frame.width_px(), height = frame.height_px();
-  render::Layers layers;
+  Layers layers;
   layers.plate = Image(width, height);
   layers.plate.data = linear_rgb(frame, {0, 0, width, height});
   layers.object = filled(width, height, 4, 0.0f);
@@ -33,7 +34,7 @@ render::Layers untouched_layers(const Frame& frame) {
 }
 
 /// R = plate * shadow * (1 - object.A) + object.R + glare.R, and A = 1: the composite fills the frame.
-Image recomposed(const render::Layers& layers) {
+Image recomposed(const Layers& layers) {
   Image rgba(layers.plate.width, layers.plate.height, 4);
   const std::size_t pixels = static_cast<std::size_t>(rgba.width) * rgba.height;
   for (std::size_t i = 0; i < pixels; ++i) {
@@ -58,10 +59,10 @@ class ExrLayerOutput : public FrameOutput {
 
   bool wants_layers() const override { return true; }
 
-  void write(const Frame& frame, const render::Composite& composite) override {
+  void write(const Frame& frame, const Composite& composite) override {
     const std::string path = pattern_.file(frame.number()).string();
     check_output_path(path, overwrite_);
-    const render::Layers layers = composite.layers ? *composite.layers : untouched_layers(frame);
+    const Layers layers = composite.layers ? *composite.layers : untouched_layers(frame);
     const Image rgba = recomposed(layers), matte = coverage(layers.object);
     const std::vector<std::string> rgb = {"R", "G", "B"};
     render::write_exr(path, {{"", &rgba, {"R", "G", "B", "A"}},

@@ -7,6 +7,7 @@
 #include "app/media/pixels/frame.hpp"
 #include "app/media/read/source.hpp"
 #include "app/media/write/sink.hpp"
+#include "catchlight/composite.hpp"
 
 namespace catchlight::app {
 
@@ -21,7 +22,7 @@ class FrameOutput {
   virtual bool wants_layers() const { return false; }
 
   /// `composite.rect` is empty where nothing virtual reached the frame: it passes through as it is.
-  virtual void write(const Frame& plate, const render::Composite& composite) = 0;
+  virtual void write(const Frame& plate, const Composite& composite) = 0;
 
   /// Puts the result under its name.
   virtual void finish() {}

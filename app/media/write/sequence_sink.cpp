@@ -2,6 +2,8 @@
 
 #include <fstream>
 
+#include "catchlight/error.hpp"
+
 namespace catchlight::app {
 
 SequenceSink::SequenceSink(SequencePattern pattern, bool overwrite) : pattern_(std::move(pattern)), overwrite_(overwrite) {

@@ -7,6 +7,7 @@
 
 #include "app/media/write/sequence_sink.hpp"
 #include "app/media/write/video_sink.hpp"
+#include "catchlight/error.hpp"
 
 namespace catchlight::app {
 namespace {

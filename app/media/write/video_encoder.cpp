@@ -5,6 +5,8 @@
 
 #include "app/media/pixels/color_tags.hpp"
 #include "app/media/pixels/convert.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/error.hpp"
 
 extern "C" {
 #include <libavutil/opt.h>

@@ -2,6 +2,8 @@
 
 extern "C" {
 #include <libavutil/opt.h>
+
+#include "catchlight/error.hpp"
 }
 
 namespace catchlight::app {

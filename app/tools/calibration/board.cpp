@@ -6,17 +6,16 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "catchlight/util/statistics.hpp"
 #include "tracking/detection/detector.hpp"
 #include "tracking/detection/families.hpp"
 #include "tracking/pose/planar_pose.hpp"
 #include "tracking/refinement/corner_refinement.hpp"
-#include "tracking/statistics.hpp"
 
 namespace catchlight::app {
 namespace {
 
 using tracking::Detection;
-using tracking::LumaView;
 
 class Checkerboard : public CalibrationBoard {
  public:
@@ -81,7 +80,7 @@ class TagBoard : public CalibrationBoard {
       add_tag(view, blurs_px, index, tracking::refine_corners(luma, lens, detection.corners_px, layouts_[index]));
     constexpr std::size_t kFewestTags = 4;
     if (view.points_px.size() < 4 * kFewestTags) return {};
-    view.blur_px = tracking::median(std::move(blurs_px));
+    view.blur_px = median(std::move(blurs_px));
     return view;
   }
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "app/tools/tag_print/tag_grid.hpp"
-#include "catchlight.hpp"
-#include "tracking/tracker.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/luma_view.hpp"
 
 namespace catchlight::app {
 
@@ -26,7 +26,7 @@ class CalibrationBoard {
 
   /// Empty where the board, or too little of it, is seen. `lens` may be a guess; where it matters, a better one places points
   /// better: needs_lens().
-  virtual std::optional<BoardView> find(const tracking::LumaView& luma, const CameraModel& lens) = 0;
+  virtual std::optional<BoardView> find(const LumaView& luma, const CameraModel& lens) = 0;
   virtual bool needs_lens() const = 0;
 };
 

@@ -7,8 +7,11 @@
 #include <utility>
 
 #include "app/support/progress.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/luma_view.hpp"
+#include "catchlight/util/statistics.hpp"
+#include "render/settings.hpp"
 #include "tracking/camera/camera_file.hpp"
-#include "tracking/statistics.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -20,7 +23,7 @@ constexpr double kBlurRatio = 2;
 constexpr double kGuessedFovDeg = 60;
 
 /// Mean square of the Laplacian: falls quickly with blur, and is only compared between neighbouring frames.
-double sharpness(const tracking::LumaView& luma) {
+double sharpness(const LumaView& luma) {
   const cv::Mat picture(luma.height_px, luma.width_px, CV_8UC1, const_cast<std::uint8_t*>(luma.data),
                         static_cast<std::size_t>(luma.stride));
   cv::Mat laplacian;
@@ -130,7 +133,7 @@ void leave_out_blurred(CollectedViews& views) {
   if (views.boards.empty()) return;
   std::vector<double> blurs_px;
   for (const SeenBoard& board : views.boards) blurs_px.push_back(board.view.blur_px);
-  const double limit_px = kBlurRatio * tracking::median(std::move(blurs_px));
+  const double limit_px = kBlurRatio * median(std::move(blurs_px));
   std::erase_if(views.boards, [&](const SeenBoard& board) {
     const bool is_blurred = board.view.blur_px > limit_px;
     if (is_blurred) views.blurred.push_back(board.view.frame);

@@ -2,8 +2,9 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "app/support/text.hpp"
 #include "app/tools/calibration/report.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/util/text.hpp"
 
 namespace catchlight::app {
 namespace {

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "app/support/text.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/util/text.hpp"
 
 namespace catchlight::app {
 namespace {

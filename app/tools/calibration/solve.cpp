@@ -7,7 +7,8 @@
 #include <optional>
 
 #include "app/tools/calibration/uncertainty.hpp"
-#include "tracking/statistics.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/util/statistics.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -182,7 +183,7 @@ ViewFit view_fit(const BoardView& view, const Fit& fit, std::size_t index) {
 /// Moves outliers from `views` to `rejected`; whether there were any.
 bool reject_outliers(std::vector<BoardView>& views, const Fit& fit, std::vector<RejectedView>& rejected) {
   std::vector<double> errors_px(fit.errors_px.begin<double>(), fit.errors_px.end<double>());
-  const double limit_px = std::max(kNegligiblePx, kOutlierRatio * tracking::median(errors_px));
+  const double limit_px = std::max(kNegligiblePx, kOutlierRatio * median(errors_px));
   std::vector<BoardView> kept;
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (errors_px[i] > limit_px)

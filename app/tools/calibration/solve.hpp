@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/tools/calibration/board.hpp"
-#include "catchlight.hpp"
+#include "catchlight/camera.hpp"
 
 namespace catchlight::app {
 

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/math/parallel.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/image.hpp"
+#include "catchlight/util/parallel.hpp"
 #include "render/probe/probe_layouts.hpp"
 
 namespace catchlight::app {
@@ -12,7 +14,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-glm::dvec3 radiance_at(const render::Image& image, const glm::dvec2& px) {
+glm::dvec3 radiance_at(const Image& image, const glm::dvec2& px) {
   const double column = std::clamp(px.x, 0.0, image.width - 1.0), row = std::clamp(px.y, 0.0, image.height - 1.0);
   const int x = std::min(static_cast<int>(column), image.width - 2), y = std::min(static_cast<int>(row), image.height - 2);
   const auto pixel = [&](int dx, int dy) {
@@ -114,9 +116,9 @@ double gain_between(const BallPicture& reference, const BallPicture& other, doub
 
 AssembledProbe assemble_probe(const std::vector<BallPicture>& views, int width, double photographer_rad) {
   const int height = (width + 1) / 2;
-  AssembledProbe result{{render::Image(width, height), render::ProbeLayout::latlong}, 0, 0, 0, 0};
+  AssembledProbe result{{Image(width, height), render::ProbeLayout::latlong}, 0, 0, 0, 0};
   std::vector<Sums> rows(height);
-  render::parallel_for(height, 0, [&](std::size_t row) {
+  parallel_for(height, 0, [&](std::size_t row) {
     const int y = static_cast<int>(row);
     for (int x = 0; x < width; ++x) {
       const double solid_angle_sr = render::texel_solid_angle(render::ProbeLayout::latlong, width, height, x, y);

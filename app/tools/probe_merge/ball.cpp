@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "catchlight/error.hpp"
 #include "tracking/camera/lens.hpp"
 
 namespace catchlight::app {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "catchlight.hpp"
-#include "render/image/image.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/image.hpp"
 
 namespace catchlight::app {
 
@@ -21,7 +21,7 @@ glm::dvec3 ray_through(const CameraModel& camera, const glm::dvec2& px);
 /// Points on the silhouette of the most ball-like disc of a scene-linear picture: Hough's circle (cv::HoughCircles), then the
 /// steepest edge along each of its radii, then those that agree on one ball. Throws Error where there is none: `what` names the
 /// picture.
-std::vector<glm::dvec2> find_ball_outline(const render::Image& radiance, const std::optional<CameraModel>& camera,
+std::vector<glm::dvec2> find_ball_outline(const Image& radiance, const std::optional<CameraModel>& camera,
                                           const std::string& what);
 
 /// Points on a circle given by hand.

@@ -4,8 +4,12 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
-#include "app/support/text.hpp"
 #include "app/tools/probe_merge/ball.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/image.hpp"
+#include "catchlight/util/text.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -15,7 +19,7 @@ constexpr int kSearchSidePx = 640;  ///< Hough's circle is sought in a picture t
 constexpr double kDarkest = 1e-3;   ///< of the median: below, noise has edges too
 
 /// Logarithm of luminance, as an edge is one in any exposure; 1 is a factor of two.
-cv::Mat log_luminance(const render::Image& radiance) {
+cv::Mat log_luminance(const Image& radiance) {
   cv::Mat picture(radiance.height, radiance.width, CV_32F);
   for (int y = 0; y < picture.rows; ++y)
     for (int x = 0; x < picture.cols; ++x) {
@@ -147,7 +151,7 @@ std::vector<glm::dvec2> agreeing(const std::vector<glm::dvec2>& points_px, const
 
 }  // namespace
 
-std::vector<glm::dvec2> find_ball_outline(const render::Image& radiance, const std::optional<CameraModel>& camera,
+std::vector<glm::dvec2> find_ball_outline(const Image& radiance, const std::optional<CameraModel>& camera,
                                           const std::string& what) {
   constexpr std::size_t kFewest = 120;  // of 360 radii
   const cv::Mat log_picture = log_luminance(radiance);

@@ -4,9 +4,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/support/text.hpp"
 #include "app/tools/probe_merge/orientation.hpp"
 #include "app/tools/probe_merge/photographs.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/image.hpp"
+#include "catchlight/util/text.hpp"
 #include "tracking/camera/camera_file.hpp"
 
 namespace catchlight::app {
@@ -99,14 +103,14 @@ void warn_of_clipping(const std::string& name, const RadianceMap& map, const Bra
 
 RadianceMap radiance_of_view(const MergeRequest& request, std::size_t view, Responses& responses, Log& log) {
   ViewPictures pictures = read_view(request.views[view], times_of(request, view));
-  if (auto* image = std::get_if<render::Image>(&pictures)) return radiance_of(std::move(*image));
+  if (auto* image = std::get_if<Image>(&pictures)) return radiance_of(std::move(*image));
   const Bracket& bracket = std::get<Bracket>(pictures);
   RadianceMap map = merge_bracket(bracket, responses.of(bracket));
   warn_of_clipping(view_name(request, view), map, bracket, log);
   return map;
 }
 
-std::optional<CameraModel> camera_for(const MergeRequest& request, const render::Image& image) {
+std::optional<CameraModel> camera_for(const MergeRequest& request, const Image& image) {
   if (!request.camera_file) {
     if (!request.fov_deg) return std::nullopt;
     return tracking::camera_from_field_of_view(image.width, image.height, *request.fov_deg);
@@ -119,7 +123,7 @@ std::optional<CameraModel> camera_for(const MergeRequest& request, const render:
   return camera;
 }
 
-void check_circle(const BallCircle& circle, const render::Image& image) {
+void check_circle(const BallCircle& circle, const Image& image) {
   constexpr double kLeastRadiusPx = 8;
   const glm::dvec2 low = circle.centre_px - circle.radius_px, high = circle.centre_px + circle.radius_px;
   if (circle.radius_px < kLeastRadiusPx || low.x < -1 || low.y < -1 || high.x > image.width || high.y > image.height)
@@ -128,7 +132,7 @@ void check_circle(const BallCircle& circle, const render::Image& image) {
                      std::to_string(image.height) + " pixels, or is smaller than 8 pixels in radius");
 }
 
-BallView ball_in(const MergeRequest& request, std::size_t view, const render::Image& image,
+BallView ball_in(const MergeRequest& request, std::size_t view, const Image& image,
                  const std::optional<CameraModel>& camera, Log& log) {
   if (!request.balls.empty()) check_circle(request.balls[view], image);
   const std::vector<glm::dvec2> outline =
@@ -141,7 +145,7 @@ BallView ball_in(const MergeRequest& request, std::size_t view, const render::Im
   return ball;
 }
 
-glm::dmat3 orientation_of(const MergeRequest& request, std::size_t view, const render::Image& image,
+glm::dmat3 orientation_of(const MergeRequest& request, std::size_t view, const Image& image,
                           const std::optional<CameraModel>& camera, Log& log) {
   if (!request.tag) {
     return probe_from_camera(request.view_yaw_deg.empty() ? 0 : request.view_yaw_deg[view],
@@ -211,7 +215,7 @@ render::Probe merge_probe(const MergeRequest& request, Log& log) {
   AssembledProbe assembled =
       assemble_probe(views, is_latlong && request.width_px > 0 ? request.width_px : width_for(views), photographer_rad);
   tell_losses(assembled, log);
-  render::Image& image = assembled.probe.image;
+  Image& image = assembled.probe.image;
   for (std::size_t i = 0; i < image.data.size(); ++i)
     image.data[i] = static_cast<float>(image.data[i] / request.reflectance[static_cast<int>(i % 3)]);
   return is_latlong ? std::move(assembled.probe) : render::convert(assembled.probe, request.layout, request.width_px);

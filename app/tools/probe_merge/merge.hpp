@@ -7,7 +7,7 @@
 
 #include "app/support/log.hpp"
 #include "app/tools/probe_merge/assemble.hpp"
-#include "tracking/tracker.hpp"
+#include "catchlight/tag.hpp"
 
 namespace catchlight::app {
 
@@ -19,7 +19,7 @@ struct MergeRequest {
   std::optional<std::string> camera_file;
   std::optional<double> fov_deg;  ///< horizontal, where there is no camera file; neither: rays are parallel
 
-  std::optional<tracking::TagTarget> tag;  ///< seen beside the ball in every view; needs a camera
+  std::optional<TagTarget> tag;  ///< seen beside the ball in every view; needs a camera
   char up = 'z';
   double yaw_deg = 0;                                ///< of the probe on the tag, as the scene says
   std::vector<double> view_yaw_deg, view_pitch_deg;  ///< instead of a tag; one a view, or empty: 0

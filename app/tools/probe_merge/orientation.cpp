@@ -3,6 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "catchlight/color.hpp"
+#include "catchlight/track.hpp"
+#include "tracking/observation.hpp"
+#include "tracking/tracker.hpp"
+
 namespace catchlight::app {
 namespace {
 
@@ -10,7 +15,7 @@ double luminance(const float* rgb) {
   return glm::dot(kLuminanceWeights, glm::dvec3(rgb[0], rgb[1], rgb[2]));
 }
 
-double median_luminance(const render::Image& radiance) {
+double median_luminance(const Image& radiance) {
   std::vector<double> values;
   for (int y = 0; y < radiance.height; ++y)
     for (int x = 0; x < radiance.width; ++x) values.push_back(luminance(radiance.pixel(x, y)));
@@ -19,7 +24,7 @@ double median_luminance(const render::Image& radiance) {
   return *middle;
 }
 
-std::vector<std::uint8_t> exposed(const render::Image& radiance, double exposure) {
+std::vector<std::uint8_t> exposed(const Image& radiance, double exposure) {
   std::vector<std::uint8_t> codes;
   codes.reserve(static_cast<std::size_t>(radiance.width) * radiance.height);
   for (int y = 0; y < radiance.height; ++y)
@@ -32,7 +37,7 @@ std::vector<std::uint8_t> exposed(const render::Image& radiance, double exposure
 
 }  // namespace
 
-std::optional<TagSight> find_tag(const render::Image& radiance, const CameraModel& camera, const tracking::TagTarget& target) {
+std::optional<TagSight> find_tag(const Image& radiance, const CameraModel& camera, const TagTarget& target) {
   const double median = median_luminance(radiance);
   if (!(median > 0)) return std::nullopt;
   std::optional<TagSight> best;
@@ -40,7 +45,7 @@ std::optional<TagSight> find_tag(const render::Image& radiance, const CameraMode
     const std::vector<std::uint8_t> codes = exposed(radiance, 0.25 * std::exp2(ev) / median);
     tracking::Tracker tracker(camera, target);
     const tracking::TagObservation seen = tracker.track({codes.data(), radiance.width, radiance.height, radiance.width}, 0);
-    if (seen.state != tracking::TrackState::tracking) continue;
+    if (seen.state != TrackState::tracking) continue;
     if (!best || seen.corner_sigma_px < best->corner_sigma_px)
       best = TagSight{seen.camera_from_tag, seen.corner_sigma_px, seen.ambiguity};
   }

@@ -3,9 +3,10 @@
 
 #include <optional>
 
-#include "catchlight.hpp"
-#include "render/image/image.hpp"
-#include "tracking/tracker.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/image.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "catchlight/tag.hpp"
 
 namespace catchlight::app {
 
@@ -17,7 +18,7 @@ struct TagSight {
 
 /// The tag in a scene-linear picture. Its own light decides how it is exposed: several exposures are tried and the surest kept.
 /// Empty where none shows it.
-std::optional<TagSight> find_tag(const render::Image& radiance, const CameraModel& camera, const tracking::TagTarget& target);
+std::optional<TagSight> find_tag(const Image& radiance, const CameraModel& camera, const TagTarget& target);
 
 /// Where the camera stands without a tag: `yaw_deg` 0 is at probe +z, looking at -z, as in the mirror-ball layout; 90 at +x.
 /// `pitch_deg` is how far the camera looks down. probe_from_camera.

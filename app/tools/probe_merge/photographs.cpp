@@ -7,9 +7,9 @@
 #include <iterator>
 #include <opencv2/imgcodecs.hpp>
 
-#include "app/support/text.hpp"
 #include "app/tools/probe_merge/exif.hpp"
-#include "catchlight.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/util/text.hpp"
 #include "render/image/image_io.hpp"
 
 namespace catchlight::app {

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "render/image/image.hpp"
+#include "catchlight/image.hpp"
 
 namespace catchlight::app {
 
@@ -23,7 +23,7 @@ struct Photograph {
 using Bracket = std::vector<Photograph>;
 
 /// One camera position: a bracket, or a picture that is scene-linear already.
-using ViewPictures = std::variant<Bracket, render::Image>;
+using ViewPictures = std::variant<Bracket, Image>;
 
 /// `times_s`: one for each of `paths`, or empty: as the files' EXIF says; a single photograph needs none. JPEG, PNG or TIFF with
 /// 8 or 16 bits; or one OpenEXR or Radiance HDR. Throws Error naming the file: not such a picture, of another size or depth than

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "catchlight.hpp"
-#include "render/math/parallel.hpp"
+#include "catchlight/util/parallel.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -86,9 +85,9 @@ ResponseCurves known_response(TransferFunction transfer, int max_code) {
 
 RadianceMap merge_bracket(const Bracket& bracket, const ResponseCurves& response) {
   const cv::Size size = bracket.front().codes.size();
-  RadianceMap map{render::Image(size.width, size.height), std::vector<std::uint8_t>(size.area()), 0};
+  RadianceMap map{Image(size.width, size.height), std::vector<std::uint8_t>(size.area()), 0};
   const BracketMerger merger(bracket, response);
-  render::parallel_for(size.height, 0, [&](std::size_t row) {
+  parallel_for(size.height, 0, [&](std::size_t row) {
     const int y = static_cast<int>(row);
     for (int x = 0; x < size.width; ++x) {
       bool clipped = false;
@@ -100,8 +99,8 @@ RadianceMap merge_bracket(const Bracket& bracket, const ResponseCurves& response
   return map;
 }
 
-RadianceMap radiance_of(render::Image image) {
-  RadianceMap map{render::Image(image.width, image.height),
+RadianceMap radiance_of(Image image) {
+  RadianceMap map{Image(image.width, image.height),
                   std::vector<std::uint8_t>(static_cast<std::size_t>(image.width) * image.height), 0};
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x)

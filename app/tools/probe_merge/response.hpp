@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "app/tools/probe_merge/photographs.hpp"
-#include "catchlight.hpp"
-#include "render/image/image.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/image.hpp"
 
 namespace catchlight::app {
 
@@ -26,7 +26,7 @@ ResponseCurves recover_response(const Bracket& bracket);
 
 /// Scene-linear radiance of a view, with what is not known of it.
 struct RadianceMap {
-  render::Image image;                ///< 3 channels, finite, >= 0
+  Image image;                ///< 3 channels, finite, >= 0
   std::vector<std::uint8_t> clipped;  ///< per pixel: at least as bright as this, in some channel
   double clipped_share = 0;           ///< of the pixels
 };
@@ -37,6 +37,6 @@ struct RadianceMap {
 RadianceMap merge_bracket(const Bracket& bracket, const ResponseCurves& response);
 
 /// Of a linear picture: bad pixels become 0.
-RadianceMap radiance_of(render::Image image);
+RadianceMap radiance_of(Image image);
 
 }  // namespace catchlight::app

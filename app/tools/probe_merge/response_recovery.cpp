@@ -3,9 +3,10 @@
 #include <opencv2/core.hpp>
 #include <random>
 
-#include "app/support/text.hpp"
 #include "app/tools/probe_merge/response.hpp"
-#include "catchlight.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/util/text.hpp"
 
 namespace catchlight::app {
 namespace {

@@ -5,9 +5,10 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
-#include "app/support/text.hpp"
 #include "app/tools/probe_view/probe_statistics.hpp"
-#include "render/math/parallel.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/util/parallel.hpp"
+#include "catchlight/util/text.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -65,7 +66,7 @@ template <class Light>
 cv::Mat painted(const Painter& painter, const cv::Size& size, const Light& light) {
   constexpr int kAcross = 2;
   cv::Mat picture(size, CV_8UC3, kPaper);
-  render::parallel_for(size.height, 0, [&](std::size_t row) {
+  parallel_for(size.height, 0, [&](std::size_t row) {
     for (int x = 0; x < size.width; ++x) {
       glm::dvec3 sum(0);
       int count = 0;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "catchlight/color.hpp"
+
 namespace catchlight::app {
 namespace {
 
@@ -15,7 +17,7 @@ double luminance(const float* rgb) {
 /// visit(x, y, luminance, solid angle) for each texel that stands for a direction.
 template <class Visit>
 void for_each_texel(const render::Probe& probe, Visit visit) {
-  const render::Image& image = probe.image;
+  const Image& image = probe.image;
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
       const double solid_angle_sr = render::texel_solid_angle(probe.layout, image.width, image.height, x, y);
@@ -67,7 +69,7 @@ ProbeStatistics measure_probe(const render::Probe& probe, int bands) {
   return result;
 }
 
-render::Image mirror_ball_preview(const render::Probe& probe, double yaw_deg, int size_px) {
+Image mirror_ball_preview(const render::Probe& probe, double yaw_deg, int size_px) {
   const glm::dmat3 probe_from_tag = glm::transpose(render::tag_from_probe('z', yaw_deg));
   const double step = 2.0 / (size_px * kSamplesAcross);
   const auto ball_radiance = [&](int column, int row) -> glm::vec4 {
@@ -78,7 +80,7 @@ render::Image mirror_ball_preview(const render::Probe& probe, double yaw_deg, in
     const glm::dvec3 normal(right, -towards_camera, up), view(0, 1, 0);
     return {render::sample(probe, probe_from_tag * glm::reflect(view, normal)), 1.0f};
   };
-  render::Image image(size_px, size_px, 4);
+  Image image(size_px, size_px, 4);
   for (int y = 0; y < size_px; ++y)
     for (int x = 0; x < size_px; ++x) {
       glm::vec4 sum(0);

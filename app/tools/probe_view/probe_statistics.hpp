@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "catchlight/image.hpp"
 #include "render/probe/probe.hpp"
 
 namespace catchlight::app {
@@ -26,6 +27,6 @@ ProbeStatistics measure_probe(const render::Probe& probe, int bands);
 
 /// A picture of a mirror ball that stands on the tag, seen horizontally by a far camera at tag -y: right is tag +x, up is tag +z,
 /// the middle mirrors the camera. For a probe with up = "z". RGBA, scene-linear, premultiplied.
-render::Image mirror_ball_preview(const render::Probe& probe, double yaw_deg, int size_px);
+Image mirror_ball_preview(const render::Probe& probe, double yaw_deg, int size_px);
 
 }  // namespace catchlight::app

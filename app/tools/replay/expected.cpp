@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "app/support/output_file.hpp"
-#include "catchlight.hpp"
+#include "catchlight/error.hpp"
 
 namespace catchlight::app {
 

@@ -6,6 +6,8 @@
 #include <glm/gtc/constants.hpp>
 #include <map>
 
+#include "catchlight/rigid_transform.hpp"
+
 namespace catchlight::app {
 
 namespace {

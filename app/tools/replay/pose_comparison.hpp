@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "app/track_export/track_file.hpp"
-#include "catchlight.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/track.hpp"
 
 namespace catchlight::app {
 

@@ -8,6 +8,10 @@
 
 #include "app/session/overlay.hpp"
 #include "app/tools/replay/sheet.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/composite.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/plate.hpp"
 
 namespace catchlight::app {
 
@@ -16,9 +20,9 @@ namespace fs = std::filesystem;
 namespace {
 
 cv::Mat bgr_of(const Frame& frame) {
-  const render::Plate plate = frame.rgb({0, 0, frame.width_px(), frame.height_px()});
-  const int depth = plate.format == render::Plate::Format::rgb_u8    ? CV_8UC3
-                    : plate.format == render::Plate::Format::rgb_u16 ? CV_16UC3
+  const Plate plate = frame.rgb({0, 0, frame.width_px(), frame.height_px()});
+  const int depth = plate.format == Plate::Format::rgb_u8    ? CV_8UC3
+                    : plate.format == Plate::Format::rgb_u16 ? CV_16UC3
                                                                      : CV_32FC3;
   const double to_8_bit = depth == CV_8UC3 ? 1.0 : depth == CV_16UC3 ? 1.0 / 257 : 255.0;
   const cv::Mat codes(plate.rect.height, plate.rect.width, depth, const_cast<std::byte*>(plate.pixels.data()));
@@ -35,7 +39,7 @@ class MeasuringOutput : public FrameOutput {
 
   bool wants_frame(std::int64_t number) const override { return fs::exists(path("truth", number)); }
 
-  void write(const Frame& plate, const render::Composite& composite) override {
+  void write(const Frame& plate, const Composite& composite) override {
     const cv::Mat ours = bgr_of(composite.rect.empty() ? plate : plate.with_composite(composite)), plate_bgr = bgr_of(plate);
     const cv::Mat truth = read(path("truth", plate.number()), cv::IMREAD_COLOR, ours.size());
     const fs::path clean_path = path("plate_clean", plate.number());

@@ -4,7 +4,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "app/support/output_file.hpp"
-#include "catchlight.hpp"
+#include "catchlight/error.hpp"
 
 namespace catchlight::app {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "catchlight/util/statistics.hpp"
 #include "render/image/image_difference.hpp"
-#include "tracking/statistics.hpp"
 
 namespace catchlight::app {
 
@@ -43,7 +43,7 @@ double masked_percentile(const cv::Mat& values, const cv::Mat& region, double sh
   for (int y = 0; y < values.rows; ++y)
     for (int x = 0; x < values.cols; ++x)
       if (region.at<std::uint8_t>(y, x)) chosen.push_back(values.at<float>(y, x));
-  return tracking::quantile(std::move(chosen), share);
+  return quantile(std::move(chosen), share);
 }
 
 PictureError picture_error(const cv::Mat& ours, const cv::Mat& truth, int box, const cv::Mat& ssim_map, const cv::Mat& region) {

@@ -1,7 +1,7 @@
 #include <cstdio>
 
-#include "app/support/text.hpp"
 #include "app/tools/tag_print/writers.hpp"
+#include "catchlight/util/text.hpp"
 
 namespace catchlight::app {
 namespace {

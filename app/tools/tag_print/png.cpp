@@ -3,9 +3,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "app/support/text.hpp"
 #include "app/tools/tag_print/writers.hpp"
-#include "catchlight.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/util/text.hpp"
 
 namespace catchlight::app {
 namespace {

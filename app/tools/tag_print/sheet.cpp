@@ -5,8 +5,8 @@
 #include <cmath>
 #include <optional>
 
-#include "app/support/text.hpp"
-#include "catchlight.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/util/text.hpp"
 #include "tracking/detection/families.hpp"
 
 namespace catchlight::app {

@@ -1,5 +1,5 @@
-#include "app/support/text.hpp"
 #include "app/tools/tag_print/writers.hpp"
+#include "catchlight/util/text.hpp"
 
 namespace catchlight::app {
 namespace {

@@ -3,6 +3,9 @@
 
 #include <optional>
 
+#include "catchlight/camera.hpp"
+#include "catchlight/image.hpp"
+#include "catchlight/pixel_rect.hpp"
 #include "render/gl/gl_objects.hpp"
 #include "render/glare/fft_glare.hpp"
 

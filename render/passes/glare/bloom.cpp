@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "catchlight/image.hpp"
 #include "render/gl/read_back.hpp"
 #include "render/gl/shader.hpp"
 #include "shaders/interface.h"

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "catchlight/pixel_rect.hpp"
 #include "render/glare/glare_plan.hpp"
 #include "render/passes/glare/glare_blur.hpp"
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "catchlight/pixel_rect.hpp"
 #include "render/gl/tap_programs.hpp"
 #include "render/passes/glare/glare_target.hpp"
 

@@ -5,12 +5,14 @@
 #include <memory>
 #include <string>
 
-#include "render/compositor.hpp"
+#include "catchlight/image.hpp"
+#include "catchlight/pixel_rect.hpp"
 #include "render/gl/tap_programs.hpp"
 #include "render/glare/glare_plan.hpp"
 #include "render/passes/glare/bloom.hpp"
 #include "render/passes/glare/glare_tiles.hpp"
 #include "render/passes/glare/streaks.hpp"
+#include "render/settings.hpp"
 
 namespace catchlight::render {
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "catchlight/pixel_rect.hpp"
 #include "render/gl/render_target.hpp"
 
 namespace catchlight::render {

@@ -8,6 +8,7 @@
 #include "app/settings/look.hpp"
 #include "app/settings/parameters.hpp"
 #include "render/probe/probe.hpp"
+#include "render/settings.hpp"
 #include "tests/support/run_command.hpp"
 #include "tests/support/scene_text.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -8,6 +8,8 @@
 #include <regex>
 #include <set>
 
+#include "catchlight/camera.hpp"
+#include "catchlight/rigid_transform.hpp"
 #include "tests/support/board_picture.hpp"
 #include "tests/support/run_command.hpp"
 #include "tests/support/synthetic_tag.hpp"

@@ -3,6 +3,7 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "catchlight/image.hpp"
 #include "render/probe/probe.hpp"
 #include "tests/support/run_command.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -114,7 +115,7 @@ TEST(Info, WithoutGraphicsSaysWhyAndFails) {
 /// A small probe, brighter above, and a folder for what is made from it.
 struct ProbeFolder : TemporaryFolder {
   ProbeFolder() {
-    render::Probe probe{render::Image(32, 16), render::ProbeLayout::latlong};
+    render::Probe probe{Image(32, 16), render::ProbeLayout::latlong};
     for (int y = 0; y < 16; ++y)
       for (int x = 0; x < 32; ++x)
         for (int c = 0; c < 3; ++c) probe.image.pixel(x, y)[c] = y < 8 ? 2.0f : 0.5f;
@@ -152,7 +153,7 @@ TEST(ProbeInfo, UnknownLayoutNamesThoseThereAre) {
 
 TEST(ProbeInfo, NegativeTexelsAreWarnedOfAndRefusedWhenStrict) {
   const TemporaryFolder folder;
-  render::Probe probe{render::Image(32, 16), render::ProbeLayout::latlong};
+  render::Probe probe{Image(32, 16), render::ProbeLayout::latlong};
   for (float& value : probe.image.data) value = 1;
   probe.image.pixel(3, 4)[1] = -0.5f;
   render::save_probe(folder.path("bad.exr"), probe);
@@ -164,7 +165,7 @@ TEST(ProbeInfo, NegativeTexelsAreWarnedOfAndRefusedWhenStrict) {
 
 TEST(ProbeInfo, QuietSilencesWarnings) {
   const TemporaryFolder folder;
-  render::save_probe(folder.path("black.exr"), {render::Image(32, 16), render::ProbeLayout::latlong});
+  render::save_probe(folder.path("black.exr"), {Image(32, 16), render::ProbeLayout::latlong});
   EXPECT_NE(run_catchlight({"probe", "info", folder.path("black.exr")}).error, "");
   EXPECT_EQ(run_catchlight({"probe", "info", "-q", folder.path("black.exr")}).error, "");
   EXPECT_EQ(run_catchlight({"-q", "probe", "info", folder.path("black.exr")}).error, "");

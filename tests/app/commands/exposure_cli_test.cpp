@@ -10,6 +10,9 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "app/track_export/track_file.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/track.hpp"
 #include "render/probe/probe.hpp"
 #include "tests/support/run_command.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -107,8 +110,8 @@ class ExposureCommand : public ::testing::Test {
   /// Pixels within the pyramid's outline, well away from its edges.
   std::vector<cv::Point> object_pixels(const std::string& name, int frame) const {
     const CameraModel camera = tracking::read_camera_file(folder_.path("still/camera.yaml"));
-    app::TrackRow row;
-    for (const app::TrackRow& other : app::read_track_file(folder_.path(name + ".csv")))
+    TrackRow row;
+    for (const TrackRow& other : app::read_track_file(folder_.path(name + ".csv")))
       if (other.frame == frame) row = other;
     EXPECT_TRUE(row.found) << frame;
     const glm::dmat3 stood_up = glm::dmat3(glm::rotate(glm::dmat4(1), glm::radians(12.0), glm::dvec3(0, 0, 1)) *

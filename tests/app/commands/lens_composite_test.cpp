@@ -11,6 +11,9 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
+#include "catchlight/camera.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/image.hpp"
 #include "render/probe/probe.hpp"
 #include "tests/support/run_command.hpp"
 #include "tests/support/synthetic_tag.hpp"
@@ -192,7 +195,7 @@ class LensOnTheResult : public ::testing::Test {
     folder_.write("shot/slab.obj", kSlab);
     folder_.write("shot/slab.mtl", kMaterials);
     render::Probe probe;
-    probe.image = render::Image(64, 32);
+    probe.image = Image(64, 32);
     std::ranges::fill(probe.image.data, 1.0f);
     render::save_probe(folder_.path("shot/probe.exr"), probe);
   }

@@ -1,6 +1,7 @@
 // `catchlight probe split`: a probe as its lights and its rest.
 #include <gmock/gmock.h>
 
+#include "catchlight/image.hpp"
 #include "render/probe/probe.hpp"
 #include "tests/support/run_command.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -16,7 +17,7 @@ constexpr int kUsage = 2;
 
 /// A grey sky whose light is uneven enough for no two texels to be alike.
 render::Probe sky() {
-  render::Probe probe{render::Image(64, 32), render::ProbeLayout::latlong};
+  render::Probe probe{Image(64, 32), render::ProbeLayout::latlong};
   for (int y = 0; y < 32; ++y) {
     for (int x = 0; x < 64; ++x) {
       for (int c = 0; c < 3; ++c) probe.image.pixel(x, y)[c] = 0.3f + 0.001f * static_cast<float>((17 * x + 5 * y + 3 * c) % 97);

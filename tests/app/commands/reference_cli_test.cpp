@@ -5,6 +5,8 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "app/photometry/linear_patch.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/image.hpp"
 #include "render/image/image_io.hpp"
 #include "tests/support/run_command.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -59,7 +61,7 @@ TEST_F(ReferenceCommand, ExrIsExposedLinearLight) {
   ASSERT_EQ(reference({"--frame", "0", "-o", folder_.path("a.png"), "--track", poses_}).exit_code, 0);
   ASSERT_EQ(reference({"--frame", "0", "-o", folder_.path("a.exr"), "--track", poses_}).exit_code, 0);
   const cv::Mat coded = cv::imread(folder_.path("a.png"));
-  const render::Image linear = render::read_exr(folder_.path("a.exr"));
+  const Image linear = render::read_exr(folder_.path("a.exr"));
   for (const int x : {10, 320, 600})
     EXPECT_NEAR(255 * app::code_from_linear(TransferFunction::srgb, linear.pixel(x, 240)[0]), coded.at<cv::Vec3b>(240, x)[2],
                 0.6);

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "app/track_export/track_file.hpp"
+#include "catchlight/track.hpp"
 #include "tests/support/pose_error.hpp"
 #include "tests/support/run_command.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -34,7 +35,7 @@ class TrackCommand : public ::testing::Test {
     return run_catchlight(arguments);
   }
 
-  std::vector<app::TrackRow> tracked(const std::string& footage, const std::string& name, std::vector<std::string> more = {}) {
+  std::vector<TrackRow> tracked(const std::string& footage, const std::string& name, std::vector<std::string> more = {}) {
     const CommandResult result = track(footage, folder_.path(name), std::move(more));
     EXPECT_EQ(result.exit_code, 0) << result.error;
     return app::read_track_file(folder_.path(name));
@@ -98,7 +99,7 @@ TEST_F(TrackCommand, FramesBeforeTheDamageAreSolved) {
   ASSERT_GE(rows.size(), 2u);
   ASSERT_LT(rows.size(), 12u);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    EXPECT_EQ(rows[i].state, tracking::TrackState::tracking) << i;
+    EXPECT_EQ(rows[i].state, TrackState::tracking) << i;
     EXPECT_LT(tracking::turn_between_deg(rows[i].camera_from_tag, whole[i].camera_from_tag), 0.1) << i;
   }
 }

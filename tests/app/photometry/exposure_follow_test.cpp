@@ -4,6 +4,10 @@
 #include <random>
 
 #include "app/session/frame_track.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/tag.hpp"
+#include "catchlight/track.hpp"
 #include "tests/support/exposure_fixture.hpp"
 #include "tests/support/synthetic_tag.hpp"
 #include "tracking/camera/camera_file.hpp"
@@ -22,7 +26,7 @@ constexpr double kNoisePerLight = 2.3e-4;
 /// Light of a tag of `size_px` pixels on paper of a margin of one cell; albedo 0.8 comes out at 0.6.
 std::vector<float> tag_light(double size_px = 61) {
   tracking::SyntheticScene synthetic{small_camera(), {}};
-  const tracking::TagTarget target{{"tag36h11", 5, 0.08}, {}};
+  const TagTarget target{{"tag36h11", 5, 0.08}, {}};
   synthetic.tags = {{target, tracking::tag_pose(small_camera(), {100, 80}, 1000 * 0.08 / size_px, {25, 15, 0})}};
   synthetic.white_linear = 0.6;
   synthetic.black_linear = 0.03;

@@ -8,6 +8,11 @@
 #include "app/photometry/lens_noise.hpp"
 #include "app/photometry/lens_view.hpp"
 #include "app/session/frame_track.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/plate.hpp"
+#include "catchlight/tag.hpp"
+#include "catchlight/track.hpp"
 #include "tests/support/media_fixture.hpp"
 #include "tests/support/synthetic_tag.hpp"
 
@@ -21,7 +26,7 @@ CameraModel camera() {
   return {320, 240, 600, 600, 159.5, 119.5, {}};
 }
 
-tracking::TagTarget target() {
+TagTarget target() {
   return {{"tag36h11", 5, 0.08}, {}};
 }
 
@@ -35,7 +40,7 @@ SyntheticScene scene() {
 TrackRow row_of(const SyntheticScene& scene) {
   TrackRow row;
   row.found = true;
-  row.state = tracking::TrackState::tracking;
+  row.state = TrackState::tracking;
   row.camera_from_tag = scene.tags[0].camera_from_tag;
   row.blur_px2 = {0.5, 0, 0.5};
   row.noise_codes = 1;
@@ -76,7 +81,7 @@ TEST(NoiseMeter, FindsTheVarianceOfEachChannelWithinATwentieth) {
 
 TEST(NoiseMeter, RoundingAloneIsNoNoise) {
   const NoiseModel model = measured(glm::dvec3(0), 0, 2);
-  EXPECT_LT(noise_codes(model, render::PlateColor{}, 0.5), 0.25);
+  EXPECT_LT(noise_codes(model, PlateColor{}, 0.5), 0.25);
   const SceneSettings::Lens lens;
   TrackRow row;
   row.noise = model;
@@ -183,7 +188,7 @@ std::vector<TrackRow> blurred(std::vector<TrackRow> rows, double focus_px2, doub
   std::mt19937 random(5);
   std::normal_distribution<double> normal(0, error_px2);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const tracking::Covariance2 m = motion_covariance(camera(), rows[i].camera_from_tag, measured[i].lens_blur.motion, 0.08);
+    const Covariance2 m = motion_covariance(camera(), rows[i].camera_from_tag, measured[i].lens_blur.motion, 0.08);
     const double s2 = shutter * shutter;
     rows[i].blur_px2 = {focus_px2 + s2 * m.xx + normal(random), s2 * m.xy + normal(random),
                         focus_px2 + s2 * m.yy + normal(random)};

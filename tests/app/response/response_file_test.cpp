@@ -1,5 +1,10 @@
 // Camera responses from files, against the curves they were made of.
 #include "app/response/response_file.hpp"
+#include "app/response/response_points.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/response_curve.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
 
@@ -8,9 +13,6 @@
 #include <limits>
 #include <opencv2/photo.hpp>
 #include <random>
-
-#include "app/response/response_points.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 namespace catchlight::app {
 namespace {

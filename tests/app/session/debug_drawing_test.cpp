@@ -1,18 +1,21 @@
 // What --debug draws is looked for in the finished frame, by its colours, where OpenCV's own projection says.
 #include "app/session/debug_drawing.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/composite.hpp"
+#include "catchlight/plate.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "catchlight/track.hpp"
+#include "tests/support/media_fixture.hpp"
 
 #include <cstring>
 #include <opencv2/calib3d.hpp>
 #include <random>
-
-#include "tests/support/media_fixture.hpp"
 
 namespace catchlight::app {
 namespace {
 
 using testing::noise_frame;
 using testing::samples_of;
-using tracking::TrackState;
 
 constexpr double kTag_m = 0.1;
 
@@ -70,10 +73,10 @@ Frame gray_frame(int width_px = 640, int height_px = 480) {
 }
 
 /// The finished frame, RGB.
-cv::Mat drawn(const Frame& frame, const TrackRow& row, const CameraModel& camera, render::Composite composite = {}) {
+cv::Mat drawn(const Frame& frame, const TrackRow& row, const CameraModel& camera, Composite composite = {}) {
   draw_debug(frame, row, camera, kTag_m, composite);
   const Frame finished = frame.with_composite(composite);
-  render::Plate plate = finished.rgb({0, 0, frame.width_px(), frame.height_px()});
+  Plate plate = finished.rgb({0, 0, frame.width_px(), frame.height_px()});
   return cv::Mat(frame.height_px(), frame.width_px(), CV_8UC3, plate.pixels.data()).clone();
 }
 
@@ -219,7 +222,7 @@ TEST(DebugDrawing, IsAsLargeBesideThePictureAtEveryResolution) {
 TEST(DebugDrawing, UntouchedPixelsKeepTheDecodersSamples) {
   for (const AVPixelFormat format : {AV_PIX_FMT_YUV444P, AV_PIX_FMT_YUV444P10LE, AV_PIX_FMT_GBRP}) {
     const Frame frame = frame_of(noise_frame(format, 640, 480, 5));
-    render::Composite composite;
+    Composite composite;
     draw_debug(frame, tracked(tilted()), distorting_camera(), kTag_m, composite);
     const Frame finished = frame.with_composite(composite);
     const auto before = samples_of(frame.picture()), after = samples_of(finished.picture());
@@ -276,11 +279,11 @@ TEST(DebugDrawing, TextTellsFrameStateResidualAndAmbiguity) {
 /// What the compositor changed stays to the bit, where nothing is drawn on it.
 TEST(DebugDrawing, TheCompositeUnderItStays) {
   std::mt19937 random(3);
-  render::Composite composite;
+  Composite composite;
   composite.rect = {300, 200, 101, 57};
   for (int i = 0; i < 101 * 57 * 4; ++i)
     composite.rgba.push_back(i % 4 == 3 ? static_cast<float>(random() % 2) : 0.001f * (random() % 1000));
-  render::Composite over = composite;
+  Composite over = composite;
   draw_debug(gray_frame(), lost(), distorting_camera(), kTag_m, over);
   EXPECT_EQ(unite(over.rect, composite.rect), over.rect);
   for (int y = 0; y < 57; ++y)
@@ -328,7 +331,7 @@ class DeepFormat : public ::testing::TestWithParam<AVPixelFormat> {};
 
 TEST_P(DeepFormat, IsDrawnInItsOwnCodes) {
   const Frame frame = frame_of(noise_frame(GetParam(), 640, 480, 9));
-  render::Composite composite;
+  Composite composite;
   draw_debug(frame, tracked(tilted()), distorting_camera(), kTag_m, composite);
   const cv::Point2d corner = opencv_px(distorting_camera(), tilted(), kCorners_m)[0];
   const auto at = 4 * static_cast<std::size_t>((cvRound(corner.y) - composite.rect.y) * composite.rect.width + cvRound(corner.x) -

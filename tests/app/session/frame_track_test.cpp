@@ -1,10 +1,11 @@
 // Rows of the track from rendered frames: what is found where, and whose exposure a row has.
 #include "app/session/frame_track.hpp"
-
-#include <algorithm>
-
+#include "catchlight/tag.hpp"
+#include "catchlight/track.hpp"
 #include "tests/support/exposure_fixture.hpp"
 #include "tests/support/synthetic_tag.hpp"
+
+#include <algorithm>
 
 namespace catchlight::app {
 namespace {
@@ -12,13 +13,12 @@ namespace {
 using testing::noise_frame;
 using testing::scene_of_tag_5;
 using testing::small_camera;
-using tracking::TrackState;
 
 /// The tag with its centre at `x_px`, or none; `light` is what white paper on it sends.
 Frame frame_of(std::int64_t number, std::optional<double> x_px, double light = 0.6) {
   tracking::SyntheticScene synthetic{small_camera(), {}};
   if (x_px) {
-    const tracking::TagTarget target{{"tag36h11", 5, 0.08}, {}};
+    const TagTarget target{{"tag36h11", 5, 0.08}, {}};
     synthetic.tags = {{target, tracking::tag_pose(small_camera(), {*x_px, 80}, 1.3, {25, 15, 0})}};
   }
   synthetic.white_linear = light;

@@ -1,10 +1,11 @@
 #include "app/session/recording.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/error.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
-
-#include "tests/support/temporary_folder.hpp"
 
 namespace catchlight::app {
 namespace {

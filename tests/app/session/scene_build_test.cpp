@@ -1,4 +1,6 @@
 #include "app/session/scene_build.hpp"
+#include "render/math/sh.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
 
@@ -7,9 +9,6 @@
 #include <cstdlib>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
-
-#include "render/math/sh.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -41,7 +40,7 @@ class SceneBuild : public ::testing::Test {
   /// `radiance` of a direction in the probe frame.
   template <class Radiance>
   void write_probe(Radiance radiance) {
-    render::Probe probe{render::Image(64, 32), render::ProbeLayout::latlong};
+    render::Probe probe{Image(64, 32), render::ProbeLayout::latlong};
     for (int y = 0; y < 32; ++y)
       for (int x = 0; x < 64; ++x) {
         const glm::vec3 value = radiance(render::direction_from_texel(probe.layout, 64, 32, x, y).value());

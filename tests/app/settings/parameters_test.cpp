@@ -1,13 +1,13 @@
 #include "app/settings/parameters.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/util/text.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <filesystem>
 #include <set>
-
-#include "app/support/text.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 namespace catchlight::app {
 namespace {

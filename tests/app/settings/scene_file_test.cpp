@@ -1,10 +1,10 @@
-#include "app/settings/scene_file.hpp"
-
-#include <gmock/gmock.h>
-
 #include "app/settings/parameters.hpp"
+#include "app/settings/scene_file.hpp"
+#include "catchlight/error.hpp"
 #include "tests/support/scene_text.hpp"
 #include "tests/support/temporary_folder.hpp"
+
+#include <gmock/gmock.h>
 
 namespace catchlight::app {
 namespace {

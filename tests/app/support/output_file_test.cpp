@@ -1,9 +1,8 @@
 #include "app/support/output_file.hpp"
+#include "catchlight/error.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
-
-#include "catchlight.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 namespace catchlight::app {
 namespace {

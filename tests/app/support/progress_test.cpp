@@ -1,4 +1,5 @@
 #include "app/support/progress.hpp"
+#include "catchlight/progress.hpp"
 
 #include <gmock/gmock.h>
 

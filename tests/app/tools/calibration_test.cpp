@@ -6,6 +6,8 @@
 
 #include "app/tools/calibration/report.hpp"
 #include "app/tools/calibration/solve.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/error.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tracking/camera/camera_file.hpp"
 

@@ -1,4 +1,16 @@
 #include "app/tools/probe_merge/merge.hpp"
+#include "app/tools/probe_merge/orientation.hpp"
+#include "app/tools/probe_merge/photographs.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/image.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "catchlight/tag.hpp"
+#include "render/image/image_io.hpp"
+#include "tests/support/ball_photograph.hpp"
+#include "tests/support/synthetic_tag.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,13 +19,6 @@
 #include <glm/gtc/constants.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <random>
-
-#include "app/tools/probe_merge/orientation.hpp"
-#include "app/tools/probe_merge/photographs.hpp"
-#include "render/image/image_io.hpp"
-#include "tests/support/ball_photograph.hpp"
-#include "tests/support/synthetic_tag.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -30,7 +35,7 @@ double luminance(const glm::dvec3& rgb) {
 }
 
 render::Probe probe_of(const tests::Environment& environment, int width = 256) {
-  render::Probe probe{render::Image(width, width / 2), render::ProbeLayout::latlong};
+  render::Probe probe{Image(width, width / 2), render::ProbeLayout::latlong};
   for (int y = 0; y < probe.image.height; ++y)
     for (int x = 0; x < width; ++x) {
       const glm::dvec3 value = environment(*render::direction_from_texel(probe.layout, width, width / 2, x, y));
@@ -80,7 +85,7 @@ struct ProbeMerge : testing::Test {
     return text;
   }
 
-  std::string write_exr(const std::string& name, const render::Image& image) {
+  std::string write_exr(const std::string& name, const Image& image) {
     render::write_exr(folder.path(name), {{"", &image, {"R", "G", "B"}, true}});
     return folder.path(name);
   }
@@ -107,7 +112,7 @@ struct ProbeMerge : testing::Test {
 };
 
 TEST_F(ProbeMerge, RecoversTheResponseOfAFilmItWasNotTold) {
-  const render::Image radiance = tests::photograph(BallScene{});
+  const Image radiance = tests::photograph(BallScene{});
   const auto files = tests::write_bracket(radiance, kTimes, 0.7, folder.path("p"));
   const auto bracket = std::get<Bracket>(read_view(files, kTimes));
   const ResponseCurves curves = recover_response(bracket);
@@ -120,7 +125,7 @@ TEST_F(ProbeMerge, RecoversTheResponseOfAFilmItWasNotTold) {
 
 /// Every stop from 1/4 of the longest exposure's darkest usable code to the shortest's white, in one ramp.
 TEST_F(ProbeMerge, RadianceIsRightOverFourteenStops) {
-  render::Image ramp(1400, 40);
+  Image ramp(1400, 40);
   for (int y = 0; y < ramp.height; ++y)
     for (int x = 0; x < ramp.width; ++x)
       for (int c = 0; c < 3; ++c) ramp.pixel(x, y)[c] = static_cast<float>(std::exp2(-6.5 + x / 100.0));
@@ -141,7 +146,7 @@ TEST_F(ProbeMerge, RadianceIsRightOverFourteenStops) {
 }
 
 TEST_F(ProbeMerge, MarksWhatIsWhiteInTheShortestPhotographAndKeepsItsLowerBound) {
-  render::Image picture(64, 64);
+  Image picture(64, 64);
   std::fill(picture.data.begin(), picture.data.end(), 0.2f);
   for (int c = 0; c < 3; ++c) picture.pixel(10, 20)[c] = 5000;  // the shortest holds 4
   const std::vector<double> times{1, 0.25};
@@ -243,7 +248,7 @@ TEST_F(ProbeMerge, ViewsOfDifferentExposureAreMatched) {
   BallScene scene;
   scene.radius_m = 0.15;
   scene.probe_from_camera = probe_from_camera(100, 0);
-  render::Image darker = tests::photograph(scene);
+  Image darker = tests::photograph(scene);
   for (float& value : darker.data) value *= static_cast<float>(std::exp2(-1.5));
   MergeRequest both = request({{write_view("a.exr", 0)}, {write_exr("b.exr", darker)}});
   both.view_yaw_deg = {0, 100};
@@ -254,7 +259,7 @@ TEST_F(ProbeMerge, ViewsOfDifferentExposureAreMatched) {
 
 /// From JPEG-like codes to a probe in the tag's frame, nothing known but the times, the lens and the tag's size.
 struct BallBesideTag : ProbeMerge {
-  tracking::TagTarget tag;
+  TagTarget tag;
   std::vector<double> times{1, 0.25, 1.0 / 16, 1.0 / 64, 1.0 / 256};
 
   /// The tag lies flat on a table; the ball stands beside it; the camera looks down at both from `yaw_deg` about the tag's z.
@@ -333,7 +338,7 @@ TEST_F(BadPhotographs, AreNamed) {
   EXPECT_THAT(error_of({a, deep}, {1, 0.25}), HasSubstr("16 bits"));
   EXPECT_THAT(error_of({a, a}, {1, 1}), HasSubstr("same exposure"));
   EXPECT_THAT(error_of({a, a}, {}), testing::AllOf(HasSubstr("a.png"), HasSubstr("--times")));
-  const std::string linear = write_exr("linear.exr", render::Image(8, 8));
+  const std::string linear = write_exr("linear.exr", Image(8, 8));
   EXPECT_THAT(error_of({a, linear}, {1, 0.25}), HasSubstr("linear.exr: is scene-linear already"));
 }
 
@@ -377,7 +382,7 @@ TEST_F(BadPhotographs, RequestsThatContradictThemselvesAreRefused) {
   EXPECT_THAT(refused(views), HasSubstr("--view-yaw is given for 1 views, but there are 2"));
   MergeRequest tag;
   tag.views = {{a}};
-  tag.tag = tracking::TagTarget{};
+  tag.tag = TagTarget{};
   EXPECT_THAT(refused(tag), HasSubstr("--camera FILE or --fov"));
   tag.view_yaw_deg = {0};
   EXPECT_THAT(refused(tag), HasSubstr("stand for a tag"));
@@ -385,7 +390,7 @@ TEST_F(BadPhotographs, RequestsThatContradictThemselvesAreRefused) {
 
 /// A black picture of a ball is a black probe, not a crash.
 TEST_F(BadPhotographs, BlackPictureGivesABlackProbe) {
-  const render::Image black(64, 64);
+  const Image black(64, 64);
   MergeRequest request;
   request.views = {{write_exr("black.exr", black)}};
   request.balls = {{{31.5, 31.5}, 30}};

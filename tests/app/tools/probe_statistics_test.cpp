@@ -1,4 +1,5 @@
 #include "app/tools/probe_view/probe_statistics.hpp"
+#include "catchlight/image.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +12,7 @@ namespace {
 constexpr double kPi = glm::pi<double>();
 
 render::Probe constant_probe(const glm::vec3& radiance, render::ProbeLayout layout = render::ProbeLayout::latlong) {
-  render::Probe probe{render::Image(64, layout == render::ProbeLayout::latlong ? 32 : 64), layout};
+  render::Probe probe{Image(64, layout == render::ProbeLayout::latlong ? 32 : 64), layout};
   for (int y = 0; y < probe.image.height; ++y)
     for (int x = 0; x < probe.image.width; ++x)
       for (int c = 0; c < 3; ++c) probe.image.pixel(x, y)[c] = radiance[c];
@@ -110,7 +111,7 @@ glm::dvec2 pixel_that_mirrors(const glm::dvec3& direction_tag, int size_px) {
   return {(normal.x + 1) / 2 * size_px - 0.5, (1 - normal.z) / 2 * size_px - 0.5};
 }
 
-glm::dvec2 brightest_pixel(const render::Image& image) {
+glm::dvec2 brightest_pixel(const Image& image) {
   glm::dvec2 weighted(0);
   double sum = 0;
   for (int y = 0; y < image.height; ++y)
@@ -127,7 +128,7 @@ TEST_P(MirrorBallPreview, ShowsALampWhereItStands) {
   constexpr int kSize = 128;
   const glm::dvec3 direction_tag = glm::normalize(GetParam());
   const glm::dvec3 direction_probe(direction_tag.x, direction_tag.z, -direction_tag.y);  // probe +y = tag +z, probe +z = tag -y
-  const render::Image ball = mirror_ball_preview(spot_probe(direction_probe, 100), 0, kSize);
+  const Image ball = mirror_ball_preview(spot_probe(direction_probe, 100), 0, kSize);
   const glm::dvec2 expected = pixel_that_mirrors(direction_tag, kSize), seen = brightest_pixel(ball);
   // A texel is 5.7 degrees; the ball turns a normal by half of it: at most 0.05 radii, 3.2 px.
   EXPECT_NEAR(seen.x, expected.x, 3.2);
@@ -153,7 +154,7 @@ TEST(MirrorBallPreview, YawTurnsTheLightCounterClockwiseFromAbove) {
 
 TEST(MirrorBallPreview, IsTransparentAroundADiscOfTheRightArea) {
   constexpr int kSize = 64;
-  const render::Image ball = mirror_ball_preview(constant_probe(glm::vec3(0.5f)), 0, kSize);
+  const Image ball = mirror_ball_preview(constant_probe(glm::vec3(0.5f)), 0, kSize);
   double area = 0;
   for (int y = 0; y < kSize; ++y)
     for (int x = 0; x < kSize; ++x) {

@@ -9,6 +9,9 @@
 #include "app/tools/replay/pose_comparison.hpp"
 #include "app/tools/replay/sheet.hpp"
 #include "app/tools/replay/truth_comparison.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/track.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -113,7 +116,7 @@ TrackRow row_at(std::int64_t frame, const glm::dvec3& translation_m) {
   TrackRow row;
   row.frame = frame;
   row.found = true;
-  row.state = tracking::TrackState::tracking;
+  row.state = TrackState::tracking;
   row.camera_from_tag.rotation = glm::dmat3(1, 0, 0, 0, -1, 0, 0, 0, -1);  // facing the camera
   row.camera_from_tag.translation_m = translation_m;
   return row;

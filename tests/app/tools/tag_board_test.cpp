@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "app/settings/scene_file.hpp"
+#include "catchlight/tag.hpp"
 #include "tests/support/scene_text.hpp"
 
 namespace catchlight::app {
@@ -16,15 +17,15 @@ void expect_near(const glm::dvec3& a, const glm::dvec3& b) {
 }
 
 TEST(TagBoard, ATagAloneIsTheWholeTarget) {
-  const tracking::TagTarget target = read_scene("[tag]\nfamily = \"tag25h9\"\nid = 12\nsize_m = 0.14\n").tag.target();
+  const TagTarget target = read_scene("[tag]\nfamily = \"tag25h9\"\nid = 12\nsize_m = 0.14\n").tag.target();
   EXPECT_TRUE(target.bundle.empty());
-  EXPECT_EQ(static_cast<const tracking::PrintedTag&>(target), (tracking::PrintedTag{"tag25h9", 12, 0.14}));
+  EXPECT_EQ(static_cast<const PrintedTag&>(target), (PrintedTag{"tag25h9", 12, 0.14}));
   ASSERT_EQ(target.tags().size(), 1u);
   EXPECT_EQ(target.tags()[0].tag_from_this.translation_m, glm::dvec3(0));
 }
 
 TEST(TagBoard, WhatAFurtherTagDoesNotSayIsAsTheFirst) {
-  const tracking::TagTarget target = read_scene(R"(
+  const TagTarget target = read_scene(R"(
 [tag]
 family = "tag25h9"
 size_m = 0.14
@@ -37,8 +38,8 @@ size_m = 0.05
 )")
                                          .tag.target();
   ASSERT_EQ(target.bundle.size(), 2u);
-  EXPECT_EQ(static_cast<const tracking::PrintedTag&>(target.bundle[0]), (tracking::PrintedTag{"tag25h9", 1, 0.14}));
-  EXPECT_EQ(static_cast<const tracking::PrintedTag&>(target.bundle[1]), (tracking::PrintedTag{"tag16h5", 2, 0.05}));
+  EXPECT_EQ(static_cast<const PrintedTag&>(target.bundle[0]), (PrintedTag{"tag25h9", 1, 0.14}));
+  EXPECT_EQ(static_cast<const PrintedTag&>(target.bundle[1]), (PrintedTag{"tag16h5", 2, 0.05}));
   EXPECT_EQ(target.bundle[0].tag_from_this.translation_m, glm::dvec3(0));
   EXPECT_EQ(target.bundle[0].tag_from_this.rotation, glm::dmat3(1.0));
   EXPECT_EQ(target.tags().size(), 3u);

@@ -1,5 +1,14 @@
 // What is printed, read back by parsers and detectors that know nothing of how it was laid out.
 #include "app/tools/tag_print/writers.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/luma_view.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tracking/camera/camera_file.hpp"
+#include "tracking/detection/detector.hpp"
+#include "tracking/detection/families.hpp"
+#include "tracking/refinement/corner_refinement.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,13 +18,6 @@
 #include <opencv2/imgproc.hpp>
 #include <regex>
 #include <sstream>
-
-#include "catchlight.hpp"
-#include "tests/support/temporary_folder.hpp"
-#include "tracking/camera/camera_file.hpp"
-#include "tracking/detection/detector.hpp"
-#include "tracking/detection/families.hpp"
-#include "tracking/refinement/corner_refinement.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -37,7 +39,7 @@ std::vector<Detection> detect(const cv::Mat1b& picture, const std::string& famil
   // Ideal steps from pixel to pixel have no slope that an edge could be placed by.
   cv::Mat1b blurred;
   cv::GaussianBlur(picture, blurred, {}, 0.8);
-  tracking::LumaView luma{blurred.data, blurred.cols, blurred.rows, static_cast<int>(blurred.step)};
+  LumaView luma{blurred.data, blurred.cols, blurred.rows, static_cast<int>(blurred.step)};
   luma.transfer = TransferFunction::linear;
   std::vector<Detection> found = tracking::Detector(family, {}).detect(luma);
   for (Detection& tag : found) {

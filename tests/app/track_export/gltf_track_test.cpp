@@ -5,6 +5,7 @@
 #include <cstring>
 #include <functional>
 
+#include "catchlight/track.hpp"
 #include "render/mesh/gltf.hpp"
 #include "tests/support/orbit_track.hpp"
 

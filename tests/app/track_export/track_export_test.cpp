@@ -1,6 +1,9 @@
 // Every format is read back as the program it is for reads it, by code of our own here or by another library, and a point on the
 // tag is projected through the camera it describes.
 #include "app/track_export/track_export.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/track.hpp"
+#include "tests/support/orbit_track.hpp"
 
 #include <gmock/gmock.h>
 
@@ -8,8 +11,6 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 #include <sstream>
-
-#include "tests/support/orbit_track.hpp"
 
 namespace catchlight::app {
 namespace {

@@ -1,12 +1,13 @@
 #include "app/track_export/track_file.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/track.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
 
 #include <bit>
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
-
-#include "tests/support/temporary_folder.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -15,7 +16,6 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 using tests::message_of;
 using tests::TemporaryFolder;
-using tracking::TrackState;
 
 constexpr const char* kPoseHeader = "frame,r00,r01,r02,r10,r11,r12,r20,r21,r22,tx,ty,tz\n";
 constexpr const char* kIdentity = ",1,0,0,0,1,0,0,0,1,0,0,1\n";

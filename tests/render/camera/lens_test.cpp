@@ -1,4 +1,7 @@
 // Camera frame to clip space, against OpenCV's own projection.
+#include "catchlight/camera.hpp"
+#include "catchlight/pixel_rect.hpp"
+#include "catchlight/rigid_transform.hpp"
 #include "render/camera/lens.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,11 @@
 // Shaders: what C++ and GLSL must agree on, and what a broken one says.
+#include "catchlight/error.hpp"
+#include "embedded/embedded_shaders.hpp"
+#include "render/compositor.hpp"
 #include "render/gl/shader.hpp"
+#include "render/settings.hpp"
+#include "shaders/interface.h"
+#include "tests/support/gl_fixture.hpp"
 
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -8,10 +14,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-
-#include "embedded/embedded_shaders.hpp"
-#include "shaders/interface.h"
-#include "tests/support/gl_fixture.hpp"
 
 namespace catchlight::render::test {
 namespace {

@@ -1,5 +1,10 @@
 // Apertures: what the program draws, and what it accepts of the user's.
+#include "catchlight/error.hpp"
+#include "catchlight/image.hpp"
 #include "render/glare/aperture_picture.hpp"
+#include "render/glare/aperture_shapes.hpp"
+#include "render/image/image_io.hpp"
+#include "tests/support/test_files.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +13,6 @@
 #include <limits>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
-
-#include "catchlight.hpp"
-#include "render/glare/aperture_shapes.hpp"
-#include "render/image/image_io.hpp"
-#include "tests/support/test_files.hpp"
 
 namespace catchlight::render {
 namespace {

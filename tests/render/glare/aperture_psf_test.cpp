@@ -1,14 +1,14 @@
 // Diffraction against the closed forms of optics, and what must hold of any aperture's.
+#include "catchlight/error.hpp"
+#include "catchlight/image.hpp"
 #include "render/glare/aperture_psf.hpp"
+#include "render/glare/aperture_shapes.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <limits>
-
-#include "catchlight.hpp"
-#include "render/glare/aperture_shapes.hpp"
 
 namespace catchlight::render {
 namespace {

@@ -1,12 +1,16 @@
 // The glare of an aperture on the CPU: what of a frame glares, and how it is scaled.
+#include "catchlight/camera.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/image.hpp"
+#include "catchlight/pixel_rect.hpp"
 #include "render/glare/fft_glare.hpp"
+#include "render/glare/glare_kernel.hpp"
+#include "render/settings.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
-
-#include "render/glare/glare_kernel.hpp"
 
 namespace catchlight::render {
 namespace {

@@ -1,13 +1,15 @@
 // The arithmetic under the glare passes; no GL.
+#include "catchlight/image.hpp"
+#include "catchlight/pixel_rect.hpp"
+#include "render/glare/glare_kernel.hpp"
 #include "render/glare/glare_plan.hpp"
+#include "render/passes/glare/glare_tiles.hpp"
+#include "render/settings.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <utility>
-
-#include "render/glare/glare_kernel.hpp"
-#include "render/passes/glare/glare_tiles.hpp"
 
 namespace catchlight::render::test {
 namespace {

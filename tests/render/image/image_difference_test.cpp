@@ -1,4 +1,5 @@
 // The comparator must see what an eye would, and each figure what the others miss.
+#include "catchlight/error.hpp"
 #include "render/image/image_difference.hpp"
 
 #include <gmock/gmock.h>
@@ -6,8 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
-
-#include "catchlight.hpp"
 
 namespace catchlight::render {
 namespace {

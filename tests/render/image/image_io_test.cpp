@@ -1,4 +1,7 @@
+#include "catchlight/error.hpp"
+#include "catchlight/image.hpp"
 #include "render/image/image_io.hpp"
+#include "tests/support/test_files.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +14,6 @@
 
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>
-
-#include "tests/support/test_files.hpp"
 
 namespace catchlight::render {
 namespace {

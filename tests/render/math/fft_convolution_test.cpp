@@ -1,4 +1,6 @@
 // Convolution by FFT against the sum that it stands for, and what must hold of any convolution.
+#include "catchlight/error.hpp"
+#include "catchlight/image.hpp"
 #include "render/math/fft_convolution.hpp"
 
 #include <gtest/gtest.h>
@@ -6,8 +8,6 @@
 #include <cmath>
 #include <limits>
 #include <random>
-
-#include "catchlight.hpp"
 
 namespace catchlight::render {
 namespace {

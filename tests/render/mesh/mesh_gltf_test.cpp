@@ -1,5 +1,7 @@
 // What is read of glTF files, made by hand, and what is refused.
+#include "catchlight/color.hpp"
 #include "render/mesh/mesh.hpp"
+#include "tests/support/test_files.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +9,6 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <vector>
-
-#include "tests/support/test_files.hpp"
 
 namespace catchlight::render {
 namespace {

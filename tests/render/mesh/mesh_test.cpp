@@ -1,5 +1,9 @@
 // Meshes of other files, and what is done to meshes.
+#include "catchlight/color.hpp"
+#include "catchlight/error.hpp"
 #include "render/mesh/mesh.hpp"
+#include "tests/support/shapes.hpp"
+#include "tests/support/test_files.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +12,6 @@
 #include <cmath>
 #include <map>
 #include <string>
-
-#include "tests/support/shapes.hpp"
-#include "tests/support/test_files.hpp"
 
 namespace catchlight::render {
 namespace {

@@ -1,11 +1,17 @@
 // Defocus and motion blur of the virtual layer: widths in closed form, energy, and what must not change.
+#include "catchlight/camera.hpp"
+#include "catchlight/composite.hpp"
+#include "catchlight/plate.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "render/camera/lens.hpp"
+#include "render/compositor.hpp"
+#include "render/frame_view.hpp"
 #include "render/passes/lens_blur_pass.hpp"
+#include "render/render_scene.hpp"
+#include "tests/support/gl_fixture.hpp"
 
 #include <algorithm>
 #include <cmath>
-
-#include "render/camera/lens.hpp"
-#include "tests/support/gl_fixture.hpp"
 
 namespace catchlight::render::test {
 namespace {

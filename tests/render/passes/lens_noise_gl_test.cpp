@@ -3,6 +3,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "catchlight/composite.hpp"
+#include "catchlight/pixel_rect.hpp"
+#include "render/compositor.hpp"
+#include "render/frame_view.hpp"
+#include "render/render_scene.hpp"
 #include "tests/support/gl_fixture.hpp"
 
 namespace catchlight::render::test {

@@ -4,6 +4,14 @@
 #include <opencv2/calib3d.hpp>
 #include <random>
 
+#include "catchlight/camera.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/composite.hpp"
+#include "catchlight/plate.hpp"
+#include "render/compositor.hpp"
+#include "render/frame_view.hpp"
+#include "render/render_scene.hpp"
+#include "render/settings.hpp"
 #include "tests/support/gl_fixture.hpp"
 
 namespace catchlight::render::test {

@@ -1,6 +1,12 @@
 // The shadow on the receiving plane, and the layers a compositing package recombines.
 #include <cmath>
 
+#include "catchlight/composite.hpp"
+#include "catchlight/pixel_rect.hpp"
+#include "catchlight/plate.hpp"
+#include "render/compositor.hpp"
+#include "render/frame_view.hpp"
+#include "render/render_scene.hpp"
 #include "tests/support/gl_fixture.hpp"
 
 namespace catchlight::render::test {

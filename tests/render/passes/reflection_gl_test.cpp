@@ -1,6 +1,14 @@
 // Reflections against a ray tracer of one sphere, and the directions they come from.
 #include <cmath>
 
+#include "catchlight/color.hpp"
+#include "catchlight/composite.hpp"
+#include "catchlight/plate.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "render/compositor.hpp"
+#include "render/frame_view.hpp"
+#include "render/render_scene.hpp"
+#include "render/settings.hpp"
 #include "tests/support/gl_fixture.hpp"
 
 namespace catchlight::render::test {

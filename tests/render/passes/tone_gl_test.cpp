@@ -4,7 +4,17 @@
 #include <limits>
 #include <random>
 
+#include "catchlight/color.hpp"
+#include "catchlight/composite.hpp"
+#include "catchlight/image.hpp"
+#include "catchlight/pixel_rect.hpp"
+#include "catchlight/plate.hpp"
+#include "catchlight/tone_curve.hpp"
+#include "render/compositor.hpp"
+#include "render/frame_view.hpp"
 #include "render/passes/tone_pass.hpp"
+#include "render/render_scene.hpp"
+#include "render/settings.hpp"
 #include "tests/support/gl_fixture.hpp"
 
 namespace catchlight::render::test {

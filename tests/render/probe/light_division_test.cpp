@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "catchlight/color.hpp"
+#include "catchlight/image.hpp"
 #include "render/probe/probe_split.hpp"
 
 namespace catchlight::render {

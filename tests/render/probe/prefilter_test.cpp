@@ -1,11 +1,11 @@
+#include "catchlight/image.hpp"
+#include "render/probe/cube_map.hpp"
 #include "render/probe/prefilter.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
-
-#include "render/probe/cube_map.hpp"
 
 namespace catchlight::render {
 namespace {

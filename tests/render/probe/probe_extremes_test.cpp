@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "catchlight/image.hpp"
 #include "render/image/image_io.hpp"
 #include "render/probe/prefilter.hpp"
 #include "render/probe/probe.hpp"

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <opencv2/imgcodecs.hpp>
 
+#include "catchlight/error.hpp"
+#include "catchlight/image.hpp"
 #include "render/image/image_io.hpp"
 #include "render/probe/probe.hpp"
 #include "tests/support/test_files.hpp"

@@ -1,3 +1,4 @@
+#include "catchlight/image.hpp"
 #include "render/probe/probe_split.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+#include "catchlight/error.hpp"
+#include "catchlight/image.hpp"
 #include "render/probe/probe.hpp"
 
 #include <gtest/gtest.h>

@@ -4,6 +4,9 @@
 #include <numbers>
 #include <random>
 
+#include "catchlight/camera.hpp"
+#include "catchlight/image.hpp"
+#include "catchlight/rigid_transform.hpp"
 #include "render/reference/brdf.hpp"
 #include "render/reference/camera_rays.hpp"
 #include "render/reference/point_stream.hpp"

@@ -1,12 +1,15 @@
 // The reference path tracer against closed forms: it must be right before anything is measured against it.
+#include "catchlight/camera.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/image.hpp"
+#include "catchlight/rigid_transform.hpp"
 #include "render/reference/path_tracer.hpp"
+#include "tests/support/shapes.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
-
-#include "tests/support/shapes.hpp"
 
 namespace catchlight::render::reference {
 namespace {

@@ -1,4 +1,5 @@
 // Adaptation: the same curve at every frame rate, two speeds, no pumping.
+#include "catchlight/tone_curve.hpp"
 #include "render/tone/tone_adaptation.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,6 @@
 // The photographic operator and what it is found from, in closed form.
+#include "catchlight/color.hpp"
+#include "catchlight/tone_curve.hpp"
 #include "render/tone/tone_curve.hpp"
 
 #include <gtest/gtest.h>
@@ -6,8 +8,6 @@
 #include <cmath>
 #include <limits>
 #include <vector>
-
-#include "catchlight.hpp"
 
 namespace catchlight::render::test {
 namespace {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "catchlight/image.hpp"
 #include "render/transfer/interior_vertices.hpp"
 #include "render/transfer/receiver_albedo.hpp"
 #include "render/transfer/transfer.hpp"

@@ -1,13 +1,13 @@
+#include "catchlight/error.hpp"
+#include "render/math/sh.hpp"
 #include "render/transfer/transfer.hpp"
+#include "tests/support/shapes.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 #include <random>
-
-#include "render/math/sh.hpp"
-#include "tests/support/shapes.hpp"
 
 namespace catchlight::render {
 namespace {

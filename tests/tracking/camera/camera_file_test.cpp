@@ -1,4 +1,6 @@
 // Camera files as OpenCV and ROS write them, and every way they can be wrong.
+#include "catchlight/camera.hpp"
+#include "catchlight/error.hpp"
 #include "tracking/camera/camera_file.hpp"
 
 #include <gmock/gmock.h>

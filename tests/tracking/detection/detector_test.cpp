@@ -1,13 +1,13 @@
 // Conventions of the detector: which corner, which pixel centre, in which order.
+#include "catchlight/error.hpp"
+#include "tests/support/synthetic_tag.hpp"
 #include "tracking/detection/detector.hpp"
+#include "tracking/pose/planar_pose.hpp"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <iterator>
-
-#include "tests/support/synthetic_tag.hpp"
-#include "tracking/pose/planar_pose.hpp"
 
 namespace catchlight::tracking {
 namespace {

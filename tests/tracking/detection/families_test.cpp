@@ -1,4 +1,5 @@
 // The layout of every family against the library's own drawing of it.
+#include "catchlight/error.hpp"
 #include "tracking/detection/families.hpp"
 
 #include <apriltag/apriltag.h>
@@ -6,9 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-
-#include "catchlight.hpp"
-#include "tracking/tracker.hpp"
 
 namespace catchlight::tracking {
 namespace {

@@ -1,10 +1,14 @@
 // Refined corners against the exact corners of rendered tags.
+#include "catchlight/camera.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/luma_view.hpp"
+#include "catchlight/tag.hpp"
+#include "tests/support/synthetic_tag.hpp"
+#include "tracking/detection/detector.hpp"
+#include "tracking/detection/families.hpp"
 #include "tracking/refinement/corner_refinement.hpp"
 
 #include <gtest/gtest.h>
-
-#include "tests/support/synthetic_tag.hpp"
-#include "tracking/detection/detector.hpp"
 
 namespace catchlight::tracking {
 namespace {

@@ -1,11 +1,16 @@
 // The fit of the whole pattern: how exact it is, and what it says about light, blur and its own worth.
+#include "catchlight/camera.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/luma_view.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "catchlight/tag.hpp"
+#include "tests/support/pose_error.hpp"
+#include "tests/support/synthetic_tag.hpp"
+#include "tracking/detection/families.hpp"
+#include "tracking/pose/pose_covariance.hpp"
 #include "tracking/refinement/direct_refinement.hpp"
 
 #include <gtest/gtest.h>
-
-#include "tests/support/pose_error.hpp"
-#include "tests/support/synthetic_tag.hpp"
-#include "tracking/pose/pose_covariance.hpp"
 
 namespace catchlight::tracking {
 namespace {

@@ -1,10 +1,10 @@
 // The remembered pixels of a lens against the lens itself, and their slopes against finite differences.
+#include "catchlight/camera.hpp"
+#include "tests/support/synthetic_tag.hpp"
+#include "tracking/camera/lens.hpp"
 #include "tracking/refinement/ideal_pixels.hpp"
 
 #include <gtest/gtest.h>
-
-#include "tests/support/synthetic_tag.hpp"
-#include "tracking/camera/lens.hpp"
 
 namespace catchlight::tracking {
 namespace {

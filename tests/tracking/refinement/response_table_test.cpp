@@ -1,4 +1,6 @@
 // The table against the transfer functions themselves.
+#include "catchlight/color.hpp"
+#include "catchlight/luma_view.hpp"
 #include "tracking/refinement/response_table.hpp"
 
 #include <gtest/gtest.h>

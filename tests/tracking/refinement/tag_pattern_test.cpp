@@ -1,4 +1,5 @@
 // The blurred print against a convolution by brute force of the AprilTag library's own drawing.
+#include "catchlight/track.hpp"
 #include "tracking/refinement/tag_pattern.hpp"
 
 #include <apriltag/apriltag.h>

@@ -1,11 +1,11 @@
 // Whole paths: which frames get a pose, from where, and what stretches owe each other.
+#include "catchlight/track.hpp"
+#include "tests/tracking/trajectory/trajectory_fixture.hpp"
 #include "tracking/trajectory/solver.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-
-#include "tests/tracking/trajectory/trajectory_fixture.hpp"
 
 namespace catchlight::tracking {
 namespace {

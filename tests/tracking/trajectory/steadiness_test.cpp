@@ -1,11 +1,12 @@
 // Deviations from steady motion, on motion whose deviation is known.
+#include "catchlight/rigid_transform.hpp"
+#include "tests/tracking/trajectory/trajectory_fixture.hpp"
+#include "tracking/observation.hpp"
 #include "tracking/trajectory/steadiness.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
-
-#include "tests/tracking/trajectory/trajectory_fixture.hpp"
 
 namespace catchlight::tracking {
 namespace {

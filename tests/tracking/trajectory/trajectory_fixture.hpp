@@ -5,6 +5,7 @@
 #include <random>
 #include <vector>
 
+#include "catchlight/rigid_transform.hpp"
 #include "tests/support/pose_error.hpp"
 #include "tests/support/synthetic_tag.hpp"
 #include "tracking/pose/rotation.hpp"

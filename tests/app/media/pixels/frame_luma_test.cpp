@@ -1,6 +1,8 @@
 // Frame::luma() and Frame::color().
 #include <array>
 
+#include "catchlight/color.hpp"
+#include "catchlight/luma_view.hpp"
 #include "tests/support/media_fixture.hpp"
 
 namespace catchlight::app::testing {
@@ -27,7 +29,7 @@ FramePtr flat(AVPixelFormat format, const std::array<int, 3>& codes) {
 
 int luma_code(FramePtr picture) {
   const Frame frame = frame_of(std::move(picture));
-  const tracking::LumaView luma = frame.luma();
+  const LumaView luma = frame.luma();
   return luma.data[luma.stride + 3];  // the last pixel
 }
 
@@ -42,7 +44,7 @@ TEST(FrameLuma, EightBitPlanesAreNotCopied) {
 
 TEST(FrameLuma, PackedYuvIsMadeOnce) {
   const Frame frame = frame_of(flat(AV_PIX_FMT_YUYV422, {77, 100, 200}));
-  const tracking::LumaView luma = frame.luma();
+  const LumaView luma = frame.luma();
   EXPECT_EQ(luma.data[0], 77);
   EXPECT_EQ(luma.stride, 4);
   EXPECT_EQ(frame.luma().data, luma.data);
@@ -53,7 +55,7 @@ TEST(FrameLuma, BlackAndWhiteCodesFollowTheRange) {
   limited->color_range = AVCOL_RANGE_MPEG;
   full->color_range = AVCOL_RANGE_JPEG;
   const auto codes = [](FramePtr picture) {
-    const tracking::LumaView luma = frame_of(std::move(picture)).luma();
+    const LumaView luma = frame_of(std::move(picture)).luma();
     return std::pair(luma.black_code, luma.white_code);
   };
   EXPECT_EQ(codes(std::move(limited)), std::pair(16.0, 235.0));

@@ -1,4 +1,6 @@
 // Frame::rgb() against the ffmpeg command, which converts whole frames in a process of its own.
+#include "catchlight/pixel_rect.hpp"
+#include "catchlight/plate.hpp"
 #include "tests/support/media_fixture.hpp"
 
 namespace catchlight::app::testing {
@@ -64,9 +66,9 @@ TEST_P(RgbAgainstFfmpeg, EveryPartEqualsThatPartOfTheWholeFrame) {
                              {64, 64, 64, 64},          // on the grid that parts are padded to
                              {width - 31, 3, 31, 90}};  // along the right edge
   for (const PixelRect& rect : parts) {
-    const render::Plate plate = frame.rgb(rect);
+    const Plate plate = frame.rgb(rect);
     EXPECT_EQ(plate.rect, rect);
-    EXPECT_EQ(plate.format, is_deep() ? render::Plate::Format::rgb_u16 : render::Plate::Format::rgb_u8);
+    EXPECT_EQ(plate.format, is_deep() ? Plate::Format::rgb_u16 : Plate::Format::rgb_u8);
     std::vector<std::uint8_t> expected = part_of(whole, width, pixel_bytes, rect);
     if (is_deep()) stretch(expected);
     ASSERT_EQ(plate.pixels.size(), expected.size());
@@ -114,7 +116,7 @@ TEST_P(RgbOfGreys, RunFromZeroToFullScale) {
       }
     }
     const Frame frame(std::shared_ptr<const AVFrame>(std::move(picture)), 0, 0);
-    const render::Plate plate = frame.rgb({20, 10, 1, 1});
+    const Plate plate = frame.rgb({20, 10, 1, 1});
     std::uint16_t codes[3] = {};
     std::memcpy(codes, plate.pixels.data(), plate.pixels.size());
     const double expected = (luma - black) / (white - black) * 65535;
@@ -142,8 +144,8 @@ TEST(FrameRgb, FloatsAreHandedOutAsTheyAre) {
   SamplePlane(*picture, layout, 1).set_value(5, 2, -0.25f);   // below black
   SamplePlane(*picture, layout, 2).set_value(5, 2, 65504.0f);
   const Frame frame(std::shared_ptr<const AVFrame>(std::move(picture)), 0, 0);
-  const render::Plate plate = frame.rgb({5, 2, 1, 1});
-  EXPECT_EQ(plate.format, render::Plate::Format::rgb_f32);
+  const Plate plate = frame.rgb({5, 2, 1, 1});
+  EXPECT_EQ(plate.format, Plate::Format::rgb_f32);
   float rgb[3];
   ASSERT_EQ(plate.pixels.size(), sizeof rgb);
   std::memcpy(rgb, plate.pixels.data(), sizeof rgb);

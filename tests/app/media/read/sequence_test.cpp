@@ -1,9 +1,11 @@
 // Numbered image files, in and out.
 #include "app/media/read/sequence.hpp"
+#include "catchlight/color.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/plate.hpp"
+#include "tests/support/media_fixture.hpp"
 
 #include <gmock/gmock.h>
-
-#include "tests/support/media_fixture.hpp"
 
 namespace catchlight::app::testing {
 namespace {
@@ -119,7 +121,7 @@ TEST_F(Sequence, ExrIsLinearFloat) {
   ASSERT_EQ(frames.size(), 2u);
   EXPECT_EQ(frames[0].number(), 5);
   EXPECT_EQ(frames[0].color().transfer, TransferFunction::linear);
-  EXPECT_EQ(frames[0].rgb({0, 0, 2, 2}).format, render::Plate::Format::rgb_f32);
+  EXPECT_EQ(frames[0].rgb({0, 0, 2, 2}).format, Plate::Format::rgb_f32);
 }
 
 TEST_F(Sequence, JpegIsFullRangeYuv) {
@@ -135,7 +137,7 @@ TEST_F(Sequence, PalettesAndBitPackedPicturesBecomePlain) {
   EXPECT_EQ(read_all(path("m.%03d.png")).at(0).picture().format, AV_PIX_FMT_GRAY8);
   const Frame frame = read_all(path("p.%03d.png")).at(0);
   ffmpeg("-i '" + path("p.000.png") + "' -f rawvideo -pix_fmt rgb24 '" + path("whole.rgb") + "'");
-  const render::Plate plate = frame.rgb({0, 0, 64, 48});
+  const Plate plate = frame.rgb({0, 0, 64, 48});
   const auto expected = bytes_of(path("whole.rgb"));
   ASSERT_EQ(plate.pixels.size(), expected.size());
   EXPECT_EQ(std::memcmp(plate.pixels.data(), expected.data(), expected.size()), 0);

@@ -1,6 +1,7 @@
 // Videos in: what is delivered, in which orientation, and what is said of those that cannot be read.
 #include <gmock/gmock.h>
 
+#include "catchlight/error.hpp"
 #include "tests/support/media_fixture.hpp"
 
 extern "C" {

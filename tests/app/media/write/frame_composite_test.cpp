@@ -2,6 +2,9 @@
 #include <random>
 
 #include "app/media/pixels/full_color.hpp"
+#include "catchlight/composite.hpp"
+#include "catchlight/pixel_rect.hpp"
+#include "catchlight/plate.hpp"
 #include "tests/support/media_fixture.hpp"
 
 extern "C" {
@@ -18,9 +21,9 @@ Frame frame_of(FramePtr picture) {
 }
 
 // A composite over `rect` with roughly `share` of its pixels changed, to random colours.
-render::Composite random_composite(const PixelRect& rect, double share, unsigned seed) {
+Composite random_composite(const PixelRect& rect, double share, unsigned seed) {
   std::mt19937 random(seed);
-  render::Composite composite;
+  Composite composite;
   composite.rect = rect;
   for (int i = 0; i < rect.width * rect.height; ++i) {
     const bool changed = (random() % 1000) / 1000.0 < share;
@@ -30,7 +33,7 @@ render::Composite random_composite(const PixelRect& rect, double share, unsigned
   return composite;
 }
 
-bool is_changed(const render::Composite& composite, int x, int y) {
+bool is_changed(const Composite& composite, int x, int y) {
   const PixelRect& r = composite.rect;
   if (x < r.x || y < r.y || x >= r.x + r.width || y >= r.y + r.height) return false;
   return composite.rgba[static_cast<std::size_t>(4 * ((y - r.y) * r.width + x - r.x) + 3)] == 1.0f;
@@ -51,7 +54,7 @@ TEST_P(EveryFormat, SamplesOfUnchangedPixelsAreTheDecodersOwn) {
   const AVPixFmtDescriptor* format = av_pix_fmt_desc_get(GetParam());
   FramePtr picture = noise_frame(GetParam(), kWidth, kHeight, 3);
   const Frame before = frame_of(std::move(picture));
-  const render::Composite composite = random_composite({5, 7, 33, 21}, 0.2, 11);
+  const Composite composite = random_composite({5, 7, 33, 21}, 0.2, 11);
   const Frame after = before.with_composite(composite);
   ASSERT_EQ(after.picture().format, GetParam());
   EXPECT_EQ(after.number(), 7);
@@ -93,12 +96,12 @@ TEST_P(EveryFormat, TheDecodersFrameItselfStaysAsItWas) {
 TEST_P(EveryFormat, AFlatColourComesBack) {
   const PixelLayout layout = pixel_layout(GetParam()).value();
   if (layout.model == ColorModel::gray) return;
-  render::Composite composite = random_composite({0, 0, kWidth, kHeight}, 1.0, 5);
+  Composite composite = random_composite({0, 0, kWidth, kHeight}, 1.0, 5);
   const float rgb[3] = {0.8f, 0.35f, 0.1f};
   for (std::size_t i = 0; i < composite.rgba.size(); ++i) {
     if (i % 4 < 3) composite.rgba[i] = rgb[i % 4];
   }
-  const render::Plate plate = frame_of(noise_frame(GetParam(), kWidth, kHeight, 3)).with_composite(composite).rgb({20, 10, 1, 1});
+  const Plate plate = frame_of(noise_frame(GetParam(), kWidth, kHeight, 3)).with_composite(composite).rgb({20, 10, 1, 1});
   const double white = layout.depth() > 8 ? 65535 : 255;
   // RGB is exact to half a code. YUV's three roundings add up to 1.3 codes of 8 bits (blue moves 2.02 per code of Cb in limited
   // range), swscale's own adds 1.
@@ -145,7 +148,7 @@ TEST(WithComposite, ColourBarsHaveTheCodesOfTheStandards) {
     FramePtr picture = noise_frame(AV_PIX_FMT_YUV420P, 8, 8, 1);
     picture->colorspace = bar.matrix;
     picture->color_range = bar.range;
-    render::Composite composite;
+    Composite composite;
     composite.rect = {0, 0, 8, 8};
     for (int i = 0; i < 4 * 64; ++i) composite.rgba.push_back(i % 4 == 3 ? 1.0f : bar.rgb[i % 4]);
     const Frame after = frame_of(std::move(picture)).with_composite(composite);
@@ -163,7 +166,7 @@ TEST(WithComposite, ASharedChromaSampleMovesByItsShareOfTheChange) {
     for (int p = 1; p < 3; ++p) {
       for (int y = 0; y < 8; ++y) std::memset(picture->data[p] + y * picture->linesize[p], 128, 8);
     }
-    render::Composite composite;
+    Composite composite;
     composite.rect = {4, 4, 2, 2};
     for (int i = 0; i < 4; ++i) {
       for (const float value : {1.0f, 0.0f, 0.0f, i < changed ? 1.0f : 0.0f}) composite.rgba.push_back(value);
@@ -179,8 +182,8 @@ TEST(WithComposite, ASharedChromaSampleMovesByItsShareOfTheChange) {
 TEST(WithComposite, PaintingThePlateOnAPartOfABlockDoesNotMoveItsChroma) {
   const Frame before = frame_of(noise_frame(AV_PIX_FMT_YUV420P, kWidth, kHeight, 9));
   const PixelRect all{0, 0, kWidth, kHeight};
-  const render::Plate plate = before.rgb(all);
-  render::Composite composite;
+  const Plate plate = before.rgb(all);
+  Composite composite;
   composite.rect = all;
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
@@ -202,17 +205,17 @@ TEST(WithComposite, PaintingThePlateOnAPartOfABlockDoesNotMoveItsChroma) {
 
 // Upright stripes of red and blue, a pixel wide: 4:2:0 has one colour for both, full colour each its own. 16-bit footage alike.
 TEST(WithComposite, AnObjectHasTheFootagesResolutionOfColourUnlessItIsMadeFullColour) {
-  render::Composite composite;
+  Composite composite;
   composite.rect = {4, 4, 16, 16};
   for (int i = 0; i < 16 * 16; ++i)
     for (const float value : {i % 2 ? 0.75f : 0.25f, 0.5f, i % 2 ? 0.25f : 0.75f, 1.0f}) composite.rgba.push_back(value);
   for (const AVPixelFormat format : {AV_PIX_FMT_YUV420P, AV_PIX_FMT_YUV420P10LE}) {
     const Frame footage = frame_of(noise_frame(format, kWidth, kHeight, 9));
     const auto stripes = [&](const Frame& frame) {  // how much redder the second of two neighbours is, of 1
-      const render::Plate plate = frame.with_composite(composite).rgb({10, 10, 2, 1});
+      const Plate plate = frame.with_composite(composite).rgb({10, 10, 2, 1});
       const auto red_less_blue = [&](std::size_t pixel) {
         const auto code = [&](std::size_t c) {
-          if (plate.format == render::Plate::Format::rgb_u8) return std::to_integer<int>(plate.pixels[3 * pixel + c]) / 255.0;
+          if (plate.format == Plate::Format::rgb_u8) return std::to_integer<int>(plate.pixels[3 * pixel + c]) / 255.0;
           return (std::to_integer<int>(plate.pixels[6 * pixel + 2 * c]) +
                   256 * std::to_integer<int>(plate.pixels[6 * pixel + 2 * c + 1])) /
                  65535.0;
@@ -241,7 +244,7 @@ TEST(WithComposite, ReachingOutOfTheFrameIsCutOff) {
 }
 
 TEST(WithComposite, CodesBeyondTheRangeAndNotANumberAreClamped) {
-  render::Composite composite;
+  Composite composite;
   composite.rect = {0, 0, 3, 1};
   composite.rgba = {2.0f, 2.0f, 2.0f, 1.0f, -1.0f, -1.0f, -1.0f, 1.0f, NAN, NAN, NAN, 1.0f};
   const Frame after = frame_of(noise_frame(AV_PIX_FMT_RGB24, 8, 8, 1)).with_composite(composite);
@@ -252,7 +255,7 @@ TEST(WithComposite, CodesBeyondTheRangeAndNotANumberAreClamped) {
 
 TEST(WithComposite, FloatFramesTakeValuesAsTheyAre) {
   const Frame before = frame_of(noise_frame(AV_PIX_FMT_GBRPF32LE, 8, 8, 1));
-  render::Composite composite;
+  Composite composite;
   composite.rect = {2, 3, 1, 1};
   composite.rgba = {17.5f, -0.5f, 0.125f, 1.0f};
   const Frame after = before.with_composite(composite);

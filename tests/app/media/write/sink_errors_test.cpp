@@ -7,6 +7,7 @@
 
 #include <csignal>
 
+#include "catchlight/error.hpp"
 #include "tests/support/media_fixture.hpp"
 
 namespace catchlight::app::testing {

@@ -1,6 +1,7 @@
 // Videos out: times, sound, tags, sameness.
 #include <gmock/gmock.h>
 
+#include "catchlight/error.hpp"
 #include "tests/support/media_fixture.hpp"
 
 namespace catchlight::app::testing {

@@ -1,7 +1,16 @@
 // The glare of an aperture in the composite: the same as computed on the CPU from the object's layer.
 #include <cmath>
 
+#include "catchlight/color.hpp"
+#include "catchlight/composite.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/image.hpp"
+#include "catchlight/plate.hpp"
+#include "render/compositor.hpp"
+#include "render/frame_view.hpp"
 #include "render/glare/fft_glare.hpp"
+#include "render/render_scene.hpp"
+#include "render/settings.hpp"
 #include "tests/support/gl_fixture.hpp"
 
 namespace catchlight::render::test {

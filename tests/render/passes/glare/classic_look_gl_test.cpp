@@ -1,13 +1,20 @@
 // The classic look, stage by stage, against the same chain by loops in double precision.
+#include "catchlight/color.hpp"
+#include "catchlight/composite.hpp"
+#include "catchlight/image.hpp"
+#include "catchlight/plate.hpp"
+#include "render/compositor.hpp"
+#include "render/frame_view.hpp"
+#include "render/gl/read_back.hpp"
 #include "render/passes/glare/classic_glare.hpp"
+#include "render/render_scene.hpp"
+#include "render/settings.hpp"
+#include "tests/support/gl_fixture.hpp"
 
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <random>
-
-#include "render/gl/read_back.hpp"
-#include "tests/support/gl_fixture.hpp"
 
 namespace catchlight::render::test {
 namespace {

@@ -1,9 +1,16 @@
 // Glare against the convolutions it approximates, and what must not change it.
+#include "catchlight/color.hpp"
+#include "catchlight/composite.hpp"
+#include "catchlight/image.hpp"
+#include "catchlight/plate.hpp"
+#include "render/compositor.hpp"
+#include "render/frame_view.hpp"
 #include "render/passes/glare/glare_pass.hpp"
+#include "render/render_scene.hpp"
+#include "render/settings.hpp"
+#include "tests/support/gl_fixture.hpp"
 
 #include <cmath>
-
-#include "tests/support/gl_fixture.hpp"
 
 namespace catchlight::render::test {
 namespace {

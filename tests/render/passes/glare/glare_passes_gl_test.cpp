@@ -5,7 +5,9 @@
 #include <glm/gtc/constants.hpp>
 #include <limits>
 
+#include "catchlight/image.hpp"
 #include "render/gl/read_back.hpp"
+#include "render/settings.hpp"
 #include "tests/support/glare_fixture.hpp"
 #include "tests/support/glare_scenes.hpp"
 

@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "catchlight/image.hpp"
 #include "render/glare/glare_kernel.hpp"
 #include "render/math/fft_convolution.hpp"
+#include "render/settings.hpp"
 #include "tests/support/glare_fixture.hpp"
 #include "tests/support/glare_scenes.hpp"
 

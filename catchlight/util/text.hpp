@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace catchlight::app {
+namespace catchlight {
 
 /// The shortest text that reads back to the same bits.
 std::string number_text(double value);
@@ -31,4 +31,4 @@ std::size_t edit_distance(std::string_view a, std::string_view b);
 /// The candidate of least distance; one that ends in `.word` is nearer than any other. Needs at least one candidate.
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
-}  // namespace catchlight::app
+}  // namespace catchlight

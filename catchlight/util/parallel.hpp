@@ -9,9 +9,9 @@
 #include <thread>
 #include <vector>
 
-#include "catchlight.hpp"
+#include "catchlight/progress.hpp"
 
-namespace catchlight::render {
+namespace catchlight {
 
 /// Calls work(i) once for each i < count from `threads` threads (0: one a core), the calling one among them. work must write only
 /// what belongs to i. Progress is told on the calling thread; the first exception of any thread is thrown there once all have
@@ -44,4 +44,4 @@ void parallel_for(std::size_t count, int threads, const Work& work, const Progre
   if (progress) progress(1.0);
 }
 
-}  // namespace catchlight::render
+}  // namespace catchlight

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "catchlight.hpp"
+#include "catchlight/color.hpp"
 
 namespace catchlight {
 

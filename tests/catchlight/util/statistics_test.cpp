@@ -1,9 +1,9 @@
 // Which value of a few is taken.
-#include "tracking/statistics.hpp"
+#include "catchlight/util/statistics.hpp"
 
 #include <gtest/gtest.h>
 
-namespace catchlight::tracking {
+namespace catchlight {
 namespace {
 
 TEST(Median, IsTheMiddleOneOrTheUpperOfTwo) {
@@ -34,4 +34,4 @@ TEST(Quantile, LeavesTheGivenValuesAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace catchlight::tracking
+}  // namespace catchlight

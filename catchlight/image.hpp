@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace catchlight::render {
+namespace catchlight {
 
 /// Row-major, top row first, `channels` interleaved floats a pixel. Colour is scene-linear Rec. 709 unless a name says otherwise.
 struct Image {
@@ -20,4 +20,4 @@ struct Image {
   const float* pixel(int x, int y) const { return &data[(static_cast<std::size_t>(y) * width + x) * channels]; }
 };
 
-}  // namespace catchlight::render
+}  // namespace catchlight

@@ -1,11 +1,11 @@
-#include "app/support/text.hpp"
+#include "catchlight/util/text.hpp"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <numeric>
 
-namespace catchlight::app {
+namespace catchlight {
 namespace {
 
 template <class Number>
@@ -84,4 +84,4 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
                            [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
 }
 
-}  // namespace catchlight::app
+}  // namespace catchlight

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace catchlight::tracking {
+namespace catchlight {
 
 /// The value with `below` others before it, were they sorted.
 template <class Value>
@@ -30,4 +30,4 @@ Value quantile(std::vector<Value> values, double share) {
   return nth_smallest(std::move(values), below);
 }
 
-}  // namespace catchlight::tracking
+}  // namespace catchlight

@@ -1,4 +1,4 @@
-#include "app/support/text.hpp"
+#include "catchlight/util/text.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-namespace catchlight::app {
+namespace catchlight {
 namespace {
 
 /// The definition, without the table: exponential, for short words.
@@ -86,4 +86,4 @@ TEST(QuotedList, ReadsAsASentence) {
 }
 
 }  // namespace
-}  // namespace catchlight::app
+}  // namespace catchlight

@@ -1,0 +1,30 @@
+// What the renderer gives back for one frame.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "catchlight/image.hpp"
+#include "catchlight/pixel_rect.hpp"
+#include "catchlight/tone_curve.hpp"
+
+namespace catchlight {
+
+/// Layers for compositing packages, whole frame, premultiplied, exposed linear in the plate's primaries. r = plate * shadow * (1
+/// - a) + object + glare.
+struct Layers {
+  Image plate, object /* RGBA */, shadow, reflection, glare, normal, depth /* metres along z, 1 channel */;
+};
+
+/// The changed part of a frame. RGBA floats: display codes as the footage's, alpha 1 where the virtual layer changed the pixel,
+/// else 0.
+struct Composite {
+  PixelRect rect;           ///< empty: nothing virtual in sight
+  std::vector<float> rgba;  ///< row-major within rect
+  bool glare_drawn = false;
+  PixelRect glare_rect;  ///< what glare reaches, where it is drawn
+  std::optional<Layers> layers;
+  ToneCurve tone_wanted;  ///< what the frame calls for, where tone settings are enabled
+};
+
+}  // namespace catchlight

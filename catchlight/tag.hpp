@@ -1,0 +1,32 @@
+// Printed tags: what is looked for.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "catchlight/rigid_transform.hpp"
+
+namespace catchlight {
+
+/// A printed tag. `size_m` is the side of the square whose corners detectors return.
+struct PrintedTag {
+  std::string family = "tag36h11";
+  int id = 0;
+  double size_m = 0.08;
+  bool operator==(const PrintedTag&) const = default;
+};
+
+/// A further tag of a board, fixed to the first.
+struct BundledTag : PrintedTag {
+  RigidTransform tag_from_this;
+};
+
+/// What is tracked: a tag, whose frame is the tag frame, alone or as the first of a board.
+struct TagTarget : PrintedTag {
+  std::vector<BundledTag> bundle;
+
+  /// The first tag (in its own frame) and the bundle.
+  std::vector<BundledTag> tags() const;
+};
+
+}  // namespace catchlight

@@ -1,0 +1,30 @@
+// The camera's part of one frame.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+
+#include "catchlight/camera.hpp"
+#include "catchlight/plate.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "catchlight/tone_curve.hpp"
+#include "render/camera/lens_view.hpp"
+
+namespace catchlight::render {
+
+/// The camera's part of one frame: exposed linear value = exposure * radiance + black.
+struct FrameView {
+  CameraModel camera;
+  RigidTransform camera_from_tag;
+  glm::vec3 exposure{1.0f};
+  glm::vec3 black{0.0f};
+  glm::vec3 receiver_light{
+      0.0f};  ///< unshadowed, exposed linear: what clipped pixels of the plate are taken to hide; 0: not known
+  PlateColor color;
+  glm::dmat3 tag_from_light{1.0};  ///< turns the light against the tag (probe fixed to the camera)
+  bool has_pose = true;            ///< false: nothing virtual is drawn; the tone curve, where there is one, is
+  std::optional<ToneCurve> tone;   ///< what the exposure has adapted to; none: what the frame itself calls for
+  LensView lens;                   ///< what the camera does to the virtual layer besides
+};
+
+}  // namespace catchlight::render
