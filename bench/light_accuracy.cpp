@@ -20,10 +20,10 @@ namespace {
 using namespace catchlight;
 using namespace catchlight::render;
 
-constexpr int kFewestBands = 3;
+constexpr int kMinBands = 3;
 constexpr int kRays = 1024;  // a vertex, as the program's default
 constexpr double kTolerance = 0.004;
-constexpr int kMostSamples = 96;
+constexpr int kMaxSamples = 96;
 const std::filesystem::path kBlenderProbes = "/usr/share/blender/datafiles/studiolights/world";
 
 double luminance_of(const glm::dvec3& rgb) {
@@ -55,7 +55,7 @@ struct Figures {
 Light light_of(const Probe& probe, const glm::dmat3& tag_from_probe, int bands, bool is_split) {
   Light light{bands, {}, {}, 0};
   if (is_split) {
-    const SplitProbe split = split_lights(probe, {bands, kTolerance, kMostSamples});
+    const SplitProbe split = split_lights(probe, {bands, kTolerance, kMaxSamples});
     light.samples = samples_of(split, tag_from_probe);
     light.lights = static_cast<int>(split.lights.size());
   }
@@ -140,7 +140,7 @@ void measure(const Baked& baked, const std::filesystem::path& file, std::ofstrea
   std::printf("| bands | lights | samples | object RMS | max | bake noise | shadow RMS | max | bake noise |\n");
   std::printf("|---|---|---|---|---|---|---|---|---|\n");
   for (const bool is_split : {false, true}) {
-    for (int bands = kFewestBands; bands <= kMaxShBands; ++bands) {
+    for (int bands = kMinBands; bands <= kMaxShBands; ++bands) {
       const Light light = light_of(probe, turn, bands, is_split);
       const Values ours = lit(baked.scene, baked.transfer, light), other = lit(baked.scene, baked.other, light);
       const Figures object = compare(ours.object, other.object, exact.object, mean(exact.object));

@@ -7,7 +7,7 @@ namespace catchlight {
 namespace {
 
 /// Beyond it light is not told apart; shaders/tone.frag has the same.
-constexpr double kMostLight = 1e9;
+constexpr double kMaxLight = 1e9;
 
 }  // namespace
 
@@ -19,7 +19,7 @@ double ToneCurve::operator()(double luminance) const {
 glm::dvec3 ToneCurve::operator()(const glm::dvec3& rgb_linear, const glm::dvec3& weights, bool codes_end_at_1) const {
   glm::dvec3 light(0.0);
   for (int c = 0; c < 3; ++c)
-    if (!std::isnan(rgb_linear[c])) light[c] = std::clamp(rgb_linear[c], -kMostLight, kMostLight);
+    if (!std::isnan(rgb_linear[c])) light[c] = std::clamp(rgb_linear[c], -kMaxLight, kMaxLight);
   const double exposed = gain * std::max(glm::dot(weights, light), 0.0);
   light *= gain * (1 + exposed / (white * white)) / (1 + exposed);
   const double luminance = glm::dot(weights, light), peak = std::max({light.r, light.g, light.b});

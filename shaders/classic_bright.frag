@@ -9,11 +9,11 @@ layout(location = 1) uniform float threshold;              // luminance
 
 layout(location = 0) out vec4 bright;
 
-const float kTargetSize = 512.0, kMostLight = 1e9;
+const float kTargetSize = 512.0, kMaxLight = 1e9;
 
 vec3 excess(ivec2 pixel) {
   vec3 v = texelFetch(scene, pixel, 0).rgb;
-  v = clamp(mix(v, vec3(0.0), isnan(v)), 0.0, kMostLight);
+  v = clamp(mix(v, vec3(0.0), isnan(v)), 0.0, kMaxLight);
   float luminance = dot(v, vec3(0.2126, 0.7152, 0.0722));
   return luminance > threshold ? v * ((luminance - threshold) / luminance) : vec3(0.0);
 }

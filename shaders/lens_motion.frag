@@ -14,7 +14,7 @@ layout(location = 4) uniform mat2 shadow_change;
 layout(location = 0) out vec4 object_blurred;
 layout(location = 1) out vec4 shadow_blurred;
 
-const float kMostWay = 120.0;
+const float kMaxWay = 120.0;
 
 vec4 fetch(sampler2D source, ivec2 pixel) { return texelFetch(source, clamp(pixel, ivec2(0), size - 1), 0); }
 
@@ -22,7 +22,7 @@ vec4 fetch(sampler2D source, ivec2 pixel) { return texelFetch(source, clamp(pixe
 // length^2 / 12; linear between pixels across.
 vec4 mean_along(sampler2D source, ivec2 pixel, vec2 way) {
   bool steep = abs(way.y) > abs(way.x);
-  float length_px = min(steep ? abs(way.y) : abs(way.x), kMostWay);
+  float length_px = min(steep ? abs(way.y) : abs(way.x), kMaxWay);
   int reach = int(ceil(0.5 * (sqrt(1.0 + length_px * length_px) - 1.0) - 1e-6));
   if (reach == 0) return fetch(source, pixel);
   float slope = steep ? way.x / way.y : way.y / way.x;

@@ -9,10 +9,10 @@ layout(std430, binding = BINDING_DIRECT_LIGHT) readonly buffer DirectLightBlock 
 layout(std430, binding = BINDING_MATERIALS) readonly buffer MaterialBlock { SurfaceMaterial materials[]; };
 
 // Smoother surfaces show the shapes of the lights: those look the whole probe up.
-const float kLeastHighlightRoughness = 0.1;
+const float kMinHighlightRoughness = 0.1;
 
 bool shows_lights_as_highlights(float roughness) {
-  return light_samples.count.x > 0 && roughness >= kLeastHighlightRoughness;
+  return light_samples.count.x > 0 && roughness >= kMinHighlightRoughness;
 }
 
 vec3 diffuse_albedo(SurfaceMaterial m, vec3 color) { return m.base_color_metallic.rgb * color * (1.0 - m.base_color_metallic.a); }
@@ -99,7 +99,7 @@ mat3 frame_around(vec3 n) {
 vec3 mirrored_radiance(vec3 position, vec3 n, vec3 to_viewer, float roughness, bool with_lights) {
   vec3 mirror = reflect(-to_viewer, n);
   vec3 dx = dFdx(mirror), dy = dFdy(mirror);
-  int rays = roughness < kLeastHighlightRoughness ? 4 : max(view.options.x, 1);
+  int rays = roughness < kMinHighlightRoughness ? 4 : max(view.options.x, 1);
   // Without rays of its own the whole lobe is read from the prefiltered probe, in the mirror direction.
   bool traced = view.options.x > 0;
   float share = traced ? pow(float(rays), -0.25) * roughness : roughness, alpha = traced ? roughness * roughness : 0.0;

@@ -13,9 +13,9 @@ layout(location = 3) uniform vec2 one_over_frame;
 
 layout(location = 0) out vec4 result;  // codes
 
-const float kMostLight = 1e9;
+const float kMaxLight = 1e9;
 
-vec3 sane(vec3 v) { return clamp(mix(v, vec3(0.0), isnan(v)), -kMostLight, kMostLight); }
+vec3 sane(vec3 v) { return clamp(mix(v, vec3(0.0), isnan(v)), -kMaxLight, kMaxLight); }
 
 vec3 toned(vec3 light) {
   float exposed = curve.x * max(dot(luminance_weights, light), 0.0);

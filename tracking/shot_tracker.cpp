@@ -7,7 +7,7 @@
 namespace catchlight::tracking {
 namespace {
 
-constexpr std::size_t kMostKept = 26;  ///< a second of footage, and two frames to start back from
+constexpr std::size_t kMaxKept = 26;  ///< a second of footage, and two frames to start back from
 
 }  // namespace
 
@@ -33,7 +33,7 @@ void RecordedPath::record(std::size_t frame, const TagObservation& seen) {
 }
 
 void RecordedPath::keep(const LumaView& luma, double time_s) {
-  if (kept_.size() == kMostKept) kept_.pop_front();
+  if (kept_.size() == kMaxKept) kept_.pop_front();
   Kept& kept = kept_.emplace_back(Kept{frames_.size() - 1, time_s, luma, {}});
   kept.codes.reserve(static_cast<std::size_t>(luma.width_px) * static_cast<std::size_t>(luma.height_px));
   for (int row = 0; row < luma.height_px; ++row) {

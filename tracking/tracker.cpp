@@ -18,9 +18,9 @@ namespace catchlight::tracking {
 namespace {
 
 constexpr double kDetectedErrorPx = 2;                  ///< of the detector's corners in a smaller picture
-constexpr double kLeastErrorPx = 1, kMostErrorPx = 16;  ///< of a prediction; more than that is for the detector to find
+constexpr double kMinErrorPx = 1, kMaxErrorPx = 16;  ///< of a prediction; more than that is for the detector to find
 constexpr double kFirstErrorPx = 6;                     ///< of the first prediction, which knows no motion
-constexpr double kMostSigmaPx = 2;                      ///< a fit whose corners are less certain is none
+constexpr double kMaxSigmaPx = 2;                      ///< a fit whose corners are less certain is none
 
 void check_camera(const CameraModel& camera, const TagTarget& target, const TrackerOptions& options) {
   if (camera.width_px <= 0 || camera.height_px <= 0 || !(camera.fx_px > 0) || !(camera.fy_px > 0))
@@ -77,7 +77,7 @@ struct Tracker::Impl {
   std::optional<Measurement> refined(const LumaView& luma, const RigidTransform& camera_from_tag, double off_px) {
     auto fit = refiner.refine(luma, {camera_from_tag, blur_px2, off_px});
     if (!fit || !is_convincing(*fit)) return std::nullopt;
-    if (!(corner_sigma_px(camera, fit->camera_from_tag, fit->covariance, target.size_m) < kMostSigmaPx)) return std::nullopt;
+    if (!(corner_sigma_px(camera, fit->camera_from_tag, fit->covariance, target.size_m) < kMaxSigmaPx)) return std::nullopt;
     Measurement measurement;
     const auto other = refiner.other_pose(*fit);
     measurement.candidates.push_back(candidate(*fit));
@@ -124,7 +124,7 @@ struct Tracker::Impl {
   std::optional<Measurement> measure(const LumaView& luma, const std::optional<RigidTransform>& predicted) {
     if (predicted && options.refinement == Refinement::direct) {
       if (auto followed = refined(luma, *predicted, error_px)) return followed;
-      if (const auto sighting = search.near(luma, *predicted, kMostErrorPx))
+      if (const auto sighting = search.near(luma, *predicted, kMaxErrorPx))
         if (auto measurement = measured(luma, *sighting)) return measurement;
     }
     const auto sighting = search.anywhere(luma, predicted);
@@ -153,7 +153,7 @@ struct Tracker::Impl {
   void learn_error(const Quad& seen_px, const Quad& expected_px) {
     double off_px = 0;
     for (int i = 0; i < 4; ++i) off_px = std::max(off_px, glm::distance(seen_px[i], expected_px[i]));
-    error_px = std::clamp(std::max(2 * off_px, 0.8 * error_px), kLeastErrorPx, kMostErrorPx);
+    error_px = std::clamp(std::max(2 * off_px, 0.8 * error_px), kMinErrorPx, kMaxErrorPx);
   }
 };
 

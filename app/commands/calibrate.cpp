@@ -41,8 +41,8 @@ std::unique_ptr<CalibrationBoard> tag_board_of(const Options& options, const Giv
   const glm::ivec2 shape = columns_and_rows(options.tags, "--tags");
   grid.columns = shape.x;
   grid.rows = shape.y;
-  constexpr int kFewestTags = 4;
-  if (grid.count() < kFewestTags)
+  constexpr int kMinTags = 4;
+  if (grid.count() < kMinTags)
     throw UsageError("--tags is " + options.tags +
                      ", too few for a calibration; print a board with `catchlight tag --board 4x3`");
   if (!given.size) throw UsageError("--tags needs --size-m, the side of the square that detectors return, in metres");

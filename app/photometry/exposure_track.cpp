@@ -9,7 +9,7 @@ namespace catchlight::app {
 namespace {
 
 constexpr double kReach_s = 2;
-constexpr std::size_t kMostWitnesses = 24;  ///< of a frame, either side; evenly chosen where the footage has more
+constexpr std::size_t kMaxWitnesses = 24;  ///< of a frame, either side; evenly chosen where the footage has more
 
 using Witnesses = std::deque<ExposureWitness>;
 
@@ -30,7 +30,7 @@ std::vector<std::size_t> heard(const Witnesses& all, std::size_t frame, int chan
       if (!side.empty() && std::abs(all[i].time_s - all[frame].time_s) > kReach_s) break;
       if (is_heard(i)) side.push_back(i);
     }
-    const std::size_t stride = (side.size() + kMostWitnesses - 1) / kMostWitnesses;
+    const std::size_t stride = (side.size() + kMaxWitnesses - 1) / kMaxWitnesses;
     for (std::size_t i = 0; i < side.size(); i += stride) found.push_back(side[i]);
   }
   if (is_heard(frame)) found.push_back(frame);

@@ -21,14 +21,14 @@ namespace catchlight::app {
 namespace {
 
 constexpr double kReachSigmas = 3, kReachPx = 1;        ///< how far an edge's light reaches: blur, and the chroma's own filter
-constexpr std::size_t kFewestBlocks = 8;                ///< in a cell
-constexpr double kMostOfMedian = 2.5;                   ///< a cell with more variance is not flat
+constexpr std::size_t kMinBlocks = 8;                ///< in a cell
+constexpr double kMaxOfMedian = 2.5;                   ///< a cell with more variance is not flat
 constexpr double kDarkest = 0.004, kBrightest = 0.985;  ///< codes beyond are clipped
-constexpr double kMostPixels = 100'000;                 ///< looked at in a frame
+constexpr double kMaxPixels = 100'000;                 ///< looked at in a frame
 constexpr double kNoiselessLight = 0.03;                ///< the darkest that may be without noise
 constexpr int kPaperCells = 4;                          ///< of the sheet around the print
 constexpr double kPaperLikeness = 0.15;                 ///< the sheet's light differs by no more from the print's white
-constexpr double kMostOfFine = 3;                       ///< grain smeared by a codec has no more; else it is texture
+constexpr double kMaxOfFine = 3;                       ///< grain smeared by a codec has no more; else it is texture
 constexpr double kWeightFloor = 0.02;                   ///< variance grows about as light + this, so that its own error does too
 
 /// What is left of values at places after their best plane.
@@ -52,13 +52,13 @@ void take_off_plane(const std::vector<glm::dvec2>& places, std::vector<Value>& v
 
 /// A plane needs places that are not on one line, as a narrow cell's may be.
 bool span_a_plane(const std::vector<glm::dvec2>& places) {
-  constexpr double kLeastSpread = 0.1;  // two rows of four have 0.3
+  constexpr double kMinSpread = 0.1;  // two rows of four have 0.3
   glm::dvec2 middle(0.0);
   glm::dmat2 spread(0.0);
   const double share = 1.0 / static_cast<double>(places.size());
   for (const glm::dvec2& place : places) middle += share * place;
   for (const glm::dvec2& place : places) spread += share * glm::outerProduct(place - middle, place - middle);
-  return glm::determinant(spread) >= kLeastSpread;
+  return glm::determinant(spread) >= kMinSpread;
 }
 
 /// The blocks of a cell that no edge's light reaches.
@@ -136,7 +136,7 @@ std::vector<CellBlocks> cells_of(const CodePlanes& planes, const CameraModel& ca
   const double reach_px =
       kReachSigmas * std::sqrt(std::max(blur_px2.xx, blur_px2.yy)) + kReachPx + 0.5 * glm::length(block - 1.0);
   const double reach_px2 = reach_px * reach_px, pixels = static_cast<double>(planes.luma.size());
-  const int step = std::max(1, static_cast<int>(std::ceil(std::sqrt(pixels / kMostPixels))));
+  const int step = std::max(1, static_cast<int>(std::ceil(std::sqrt(pixels / kMaxPixels))));
   std::vector<CellBlocks> cells(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
   for (int y = 0; y < planes.rect.height >> planes.block_shift.y; y += step)
     for (int x = 0; x < planes.blocks_across(); x += step) {
@@ -220,7 +220,7 @@ void NoiseMeter::add_tag(const Frame& frame, const TrackRow& row, const BundledT
   if (planes.rect.empty()) return;
   std::vector<FlatPatch> flats;
   for (CellBlocks& cell : cells_of(planes, camera_, camera_from_tag, tag, row.blur_px2))
-    if (cell.color.size() >= kFewestBlocks && !cell.is_clipped && span_a_plane(cell.block_places))
+    if (cell.color.size() >= kMinBlocks && !cell.is_clipped && span_a_plane(cell.block_places))
       flats.push_back(flat_of(cell, planes.rounding, frame.color()));
   const auto paper = std::ranges::partition(flats, &FlatPatch::is_on_print);
   const std::span<const FlatPatch> print(flats.begin(), paper.begin());
@@ -242,7 +242,7 @@ void NoiseMeter::add_alike(std::span<const FlatPatch> flats, std::span<const Fla
     variances.push_back(flat.luma_variance);
     light += flat.light / static_cast<double>(flats.size());
   }
-  const double most = kMostOfMedian * median(std::move(variances));
+  const double most = kMaxOfMedian * median(std::move(variances));
   std::vector<FlatPatch> counted;
   for (const FlatPatch& flat : paper)
     if (flat.luma_variance <= most && glm::all(glm::lessThan(glm::abs(flat.light - light), kPaperLikeness * light)))
@@ -252,7 +252,7 @@ void NoiseMeter::add_alike(std::span<const FlatPatch> flats, std::span<const Fla
       if (flat.luma_variance <= most) counted.push_back(flat);
   double all = 0, fine = 0;
   for (const FlatPatch& flat : counted) all += flat.freedom * flat.luma_variance, fine += flat.freedom * flat.fine_variance;
-  const double grain = all > 0 ? std::min(1.0, kMostOfFine * fine / all) : 1.0;
+  const double grain = all > 0 ? std::min(1.0, kMaxOfFine * fine / all) : 1.0;
   for (FlatPatch& flat : counted) {
     flat.covariance *= grain;
     add(flat);

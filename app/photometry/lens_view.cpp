@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kVisibleCodes = 0.25;  ///< less noise than rounding itself makes (0.29) is none
 constexpr double kGrey = 0.18;
-constexpr double kPixelBlur_px2 = 1.0 / 12, kLeastDefocus_px2 = 0.02;
+constexpr double kPixelBlur_px2 = 1.0 / 12, kMinDefocus_px2 = 0.02;
 constexpr double kFilmShutter = 0.5;  ///< 180 degrees: where motion blur is asked for and the footage does not say how much
 
 glm::dmat3 covariance(const NoiseModel& noise, double light) {
@@ -134,7 +134,7 @@ glm::dmat3 noise_mix(const NoiseModel& noise) {
 
 double defocus_px2(Switch wanted, const LensBlurModel& blur) {
   const double beyond = blur.focus_px2 - kPixelBlur_px2;
-  return wanted == Switch::off || blur.focus_px2 == 0 || beyond < kLeastDefocus_px2 ? 0 : beyond;
+  return wanted == Switch::off || blur.focus_px2 == 0 || beyond < kMinDefocus_px2 ? 0 : beyond;
 }
 
 double shutter_share(const SceneSettings::Lens& settings, const LensBlurModel& blur) {

@@ -9,7 +9,7 @@
 namespace catchlight::app {
 namespace {
 
-constexpr std::size_t kMostPoints = 65536;
+constexpr std::size_t kMaxPoints = 65536;
 
 [[noreturn]] void refuse(const std::string& path, const std::string& why) {
   throw Error(path + ": " + why);
@@ -59,8 +59,8 @@ std::optional<std::vector<double>> numbers_of(const std::vector<std::string>& wo
 }
 
 void check_count(const std::string& path, const ResponsePoints& points) {
-  if (points.codes.size() < 2 || points.codes.size() > kMostPoints)
-    refuse(path, "holds " + std::to_string(points.codes.size()) + " codes; expected 2 to " + std::to_string(kMostPoints));
+  if (points.codes.size() < 2 || points.codes.size() > kMaxPoints)
+    refuse(path, "holds " + std::to_string(points.codes.size()) + " codes; expected 2 to " + std::to_string(kMaxPoints));
 }
 
 void space_evenly(ResponsePoints& points) {

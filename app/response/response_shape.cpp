@@ -12,7 +12,7 @@ namespace catchlight::app {
 namespace {
 
 constexpr const char* kChannels[] = {"red", "green", "blue"};
-constexpr double kMostMended = 0.05;  ///< of white: more is no noise
+constexpr double kMaxMended = 0.05;  ///< of white: more is no noise
 
 struct Dip {
   double depth = 0;  ///< how far mending moved a point, at most
@@ -41,7 +41,7 @@ std::string mend(ResponsePoints& points, std::size_t channel, const std::string&
   const Dip dip = compare(light, mended);
   const std::string where = std::string(kChannels[channel]) + " does not rise between codes " +
                             number_text(points.codes[dip.first]) + " and " + number_text(points.codes[dip.last]);
-  if (!(range > 0) || dip.depth > kMostMended * range)
+  if (!(range > 0) || dip.depth > kMaxMended * range)
     throw Error(
         path + ": " + where + " (0 to 1), by " + (range > 0 ? fixed_text(100 * dip.depth / range, 1) + " % of white" : "all") +
         "; expected light that rises with the code: calibrate again with more samples or exposures, or check the column order");
@@ -74,9 +74,9 @@ void make_even(ResponsePoints& points) {
 
 /// Every code has light of its own, be it by one bit: so that codes survive the way to light and back.
 void push_above(std::vector<float>& table, float light) {
-  constexpr float kLeastStep = 1e-30f;  // far above what a GPU takes for 0
+  constexpr float kMinStep = 1e-30f;  // far above what a GPU takes for 0
   if (!table.empty() && !(light > table.back()))
-    light = std::max(std::nextafter(table.back(), std::numeric_limits<float>::max()), table.back() + kLeastStep);
+    light = std::max(std::nextafter(table.back(), std::numeric_limits<float>::max()), table.back() + kMinStep);
   table.push_back(light);
 }
 

@@ -21,9 +21,9 @@ constexpr std::size_t kMaxVertices = 200'000;
 /// Of the object's transfer.
 constexpr std::size_t kTransferBytes = std::size_t{512} << 20;
 
-/// Of all vertices together, so that a million triangles bake in minutes; but never fewer a vertex than kLeastRays.
-constexpr std::size_t kMostRays = std::size_t{1} << 26;
-constexpr int kLeastRays = 64;
+/// Of all vertices together, so that a million triangles bake in minutes; but never fewer a vertex than kMinRays.
+constexpr std::size_t kMaxRays = std::size_t{1} << 26;
+constexpr int kMinRays = 64;
 
 /// The error of low-discrepancy rays falls about as one over their number.
 constexpr double kRayErrorFactor = 4;
@@ -54,7 +54,7 @@ int choose_rays(const SceneSettings& settings, std::size_t vertices, std::vector
   }
   int rays = rays_for_tolerance(settings.quality.tolerance);
   std::string reason = "for a tolerance of " + number_text(settings.quality.tolerance);
-  while (rays > kLeastRays && vertices * static_cast<std::size_t>(rays) > kMostRays) {
+  while (rays > kMinRays && vertices * static_cast<std::size_t>(rays) > kMaxRays) {
     rays /= 2;
     reason = std::to_string(vertices) + " vertices";
   }

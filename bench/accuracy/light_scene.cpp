@@ -13,7 +13,7 @@ namespace {
 constexpr float kLift_m = 1e-6f;
 constexpr int kGridPoints = 48, kGridRim = 6, kGridStep = 2;
 /// Rays bring no more than this share of the probe's light where they stand for several texels or a piece of one.
-constexpr double kMostOfARay = 5e-5;
+constexpr double kMaxOfARay = 5e-5;
 constexpr int kBlock = 4;  // texels along each side of what may share a ray
 
 std::vector<SeenPoint> points_on(const Mesh& mesh) {
@@ -50,7 +50,7 @@ class Rays {
     double total = 0;
     for (int y = 0; y < probe.image.height; ++y)
       for (int x = 0; x < probe.image.width; ++x) total += flux_at(probe, x, y);
-    most_ = kMostOfARay * total;
+    most_ = kMaxOfARay * total;
   }
 
   void add_block(int x0, int y0) {

@@ -19,15 +19,15 @@ namespace {
 
 constexpr int kEndless_px = std::numeric_limits<int>::max();
 constexpr std::string_view kBlades = "blades:";
-constexpr int kFewestBlades = 3, kMostBlades = 24;
+constexpr int kMinBlades = 3, kMaxBlades = 24;
 
 int blades_of(const std::string& name) {
   const char *begin = name.data() + kBlades.size(), *end = name.data() + name.size();
   int blades = 0;
   const auto [stop, error] = std::from_chars(begin, end, blades);
-  if (error != std::errc() || stop != end || blades < kFewestBlades || blades > kMostBlades)
-    throw Error("aperture \"" + name + "\": expected blades:N with N from " + std::to_string(kFewestBlades) + " to " +
-                std::to_string(kMostBlades) + ", as in blades:6");
+  if (error != std::errc() || stop != end || blades < kMinBlades || blades > kMaxBlades)
+    throw Error("aperture \"" + name + "\": expected blades:N with N from " + std::to_string(kMinBlades) + " to " +
+                std::to_string(kMaxBlades) + ", as in blades:6");
   return blades;
 }
 

@@ -13,14 +13,14 @@
 namespace catchlight::render {
 namespace {
 
-constexpr int kLeastPicture_px = 512, kMostPicture_px = 4096, kMostTransform_px = 8192;
+constexpr int kMinPicture_px = 512, kMaxPicture_px = 4096, kMaxTransform_px = 8192;
 /// Of a pixel: the far field's samples at the longest wave.
 constexpr double kSample_px = 0.75;
 /// Of the picture: padding below which rings finer than a pixel would beat against the samples.
 constexpr double kPadding = 1.5;
 /// Of the reach, where fading sets in.
 constexpr double kFadeStart = 0.75;
-constexpr int kFewestWaves = 40, kWaveSteps = 5;
+constexpr int kMinWaves = 40, kWaveSteps = 5;
 
 double pixels_per_cycle(const ApertureOptics& optics, double wavelength_nm) {
   return wavelength_nm * 1e-6 / optics.aperture_mm * optics.focal_px;
@@ -83,7 +83,7 @@ double fade(double radius, double end) {
 
 /// Enough that the spectrum's steps lie no more than about two pixels apart at that radius.
 std::size_t wave_step(double radius) {
-  const double octaves = std::ceil(std::log2(std::max(radius / 2, 1.0) / kFewestWaves));
+  const double octaves = std::ceil(std::log2(std::max(radius / 2, 1.0) / kMinWaves));
   return static_cast<std::size_t>(std::clamp(octaves, 0.0, static_cast<double>(kWaveSteps - 1)));
 }
 
@@ -112,9 +112,9 @@ AperturePlan plan_aperture(const ApertureOptics& optics, int wanted_reach_px, in
   const double shortest = pixels_per_cycle(optics, kShortest_nm), longest = pixels_per_cycle(optics, kLongest_nm);
   // The picture's resolution limits the reach: half a cycle a pixel.
   const auto needed = static_cast<int>(std::min(std::ceil(2 * wanted_reach_px / (shortest * kFadeStart)), 1e6));
-  const int largest = std::clamp(static_cast<int>(kMostTransform_px * kSample_px / longest), kLeastPicture_px, kMostPicture_px);
-  const int picture = std::min(std::clamp(needed, kLeastPicture_px, largest), picture_px);
-  const double transform = std::clamp(std::ceil(picture * longest / kSample_px), kPadding * picture, 1.0 * kMostTransform_px);
+  const int largest = std::clamp(static_cast<int>(kMaxTransform_px * kSample_px / longest), kMinPicture_px, kMaxPicture_px);
+  const int picture = std::min(std::clamp(needed, kMinPicture_px, largest), picture_px);
+  const double transform = std::clamp(std::ceil(picture * longest / kSample_px), kPadding * picture, 1.0 * kMaxTransform_px);
   const auto reach = static_cast<int>(std::min(0.5 * picture * shortest, 1.0 * wanted_reach_px));
   return {picture, static_cast<int>(transform), std::max(reach, 1)};
 }
@@ -134,7 +134,7 @@ Image aperture_psf(const ApertureFarField& field, const ApertureOptics& optics, 
   check(optics);
   const double end_px = field.limit() * pixels_per_cycle(optics, kShortest_nm);
   std::vector<std::vector<Wave>> spectra;
-  for (int step = 0; step < kWaveSteps; ++step) spectra.push_back(waves(optics, kFewestWaves << step));
+  for (int step = 0; step < kWaveSteps; ++step) spectra.push_back(waves(optics, kMinWaves << step));
   Image psf(2 * reach_px + 1, 2 * reach_px + 1);
   parallel_for(static_cast<std::size_t>(2 * reach_px + 1), 0, [&](std::size_t row) {
     const int y = static_cast<int>(row) - reach_px;

@@ -17,7 +17,7 @@ constexpr double kNarrowest_heights = 0.006, kFalloff = 0.65;
 constexpr double kDownVariance = 0.75, kUpVariance = 3.0 / 16.0, kUpToGridVariance = 1.0 / 3.0;
 /// The narrowest Gaussian makes most of the bloom's peak: a level's own blur is at least as wide as this (texels squared), so
 /// that its texels do not show. The others, and a streak, fainter where it is sharp, may do without.
-constexpr double kLeastBlurOfNarrowest = 1.0;
+constexpr double kMinBlurOfNarrowest = 1.0;
 /// What blurs less than this (texels squared) is left out: with 240 rows at most 0.018 would be.
 constexpr double kNegligibleBlur = 0.05;
 /// A streak's steps are at most so long: what is left after one is above exp(-0.6). Coarser steps show in its profile.
@@ -106,7 +106,7 @@ std::vector<BloomBlur> plan_bloom(double rows_per_height) {
   std::vector<BloomBlur> blurs;
   for (const BloomGaussian& gaussian : bloom_gaussians()) {
     const double variance = std::pow(gaussian.sigma_heights * rows_per_height, 2);
-    const int level = coarsest_level(variance, blurs.empty() ? kLeastBlurOfNarrowest : 0);
+    const int level = coarsest_level(variance, blurs.empty() ? kMinBlurOfNarrowest : 0);
     blurs.push_back({level, gaussian.weight, gaussian_taps(own_blur(variance, level))});
   }
   return blurs;

@@ -11,7 +11,7 @@
 namespace catchlight::render {
 namespace {
 
-constexpr double kLeastMotion_px = 0.5, kLeastDefocus_px2 = 1e-6;
+constexpr double kMinMotion_px = 0.5, kMinDefocus_px2 = 1e-6;
 constexpr double kInvisible = 1e-5;  ///< of a Gaussian's tail
 
 glm::dvec2 seen_px(const CameraModel& camera, const LensLimit& limit, const glm::dvec3& point_camera_m) {
@@ -59,7 +59,7 @@ MotionField fit_motion(const CameraModel& camera, const RigidTransform& camera_f
 }
 
 std::vector<float> discrete_gaussian(double variance) {
-  const double t = std::clamp(variance, 0.0, kMostDefocus_px2);
+  const double t = std::clamp(variance, 0.0, kMaxDefocus_px2);
   std::vector<double> weights;
   double sum = 0;
   for (int n = 0; n < LENS_BLUR_TAPS && 1 - sum > kInvisible; ++n) {
@@ -78,12 +78,12 @@ int LensBlurPlan::reach_px(const PixelRect& rect) const {
   for (const MotionField& field : {object, shadow})
     for (const double x : {rect.x, rect.x + rect.width})
       for (const double y : {rect.y, rect.y + rect.height}) longest = std::max(longest, glm::length(field.at({x, y})));
-  return static_cast<int>(std::ceil(reach + std::min(longest, kMostMotion_px) / 2)) + 2;
+  return static_cast<int>(std::ceil(reach + std::min(longest, kMaxMotion_px) / 2)) + 2;
 }
 
 LensBlurPlan plan_lens_blur(const FrameView& view, const glm::dvec3& box_min_m, const glm::dvec3& box_max_m) {
   LensBlurPlan plan;
-  if (view.lens.defocus_px2 > kLeastDefocus_px2) plan.variance_px2 = std::min(view.lens.defocus_px2, kMostDefocus_px2);
+  if (view.lens.defocus_px2 > kMinDefocus_px2) plan.variance_px2 = std::min(view.lens.defocus_px2, kMaxDefocus_px2);
   const LensMotion& motion = view.lens.motion;
   if (motion.turn_rad == glm::dvec3(0.0) && motion.shift_m == glm::dvec3(0.0)) return plan;
   if (box_min_m.x > box_max_m.x) return plan;
@@ -95,7 +95,7 @@ LensBlurPlan plan_lens_blur(const FrameView& view, const glm::dvec3& box_min_m, 
   }
   plan.object = fit_motion(view.camera, view.camera_from_tag, motion, corners);
   plan.shadow = fit_motion(view.camera, view.camera_from_tag, motion, footprint);
-  plan.moves = std::max(glm::length(plan.object.displacement_px), glm::length(plan.shadow.displacement_px)) >= kLeastMotion_px;
+  plan.moves = std::max(glm::length(plan.object.displacement_px), glm::length(plan.shadow.displacement_px)) >= kMinMotion_px;
   return plan;
 }
 

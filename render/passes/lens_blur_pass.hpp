@@ -32,7 +32,7 @@ MotionField fit_motion(const CameraModel& camera, const RigidTransform& camera_f
 /// (Lindeberg 1990, "Scale-space for discrete signals"). Ends where it is invisible; with its mirror it sums to 1.
 std::vector<float> discrete_gaussian(double variance);
 
-inline constexpr double kMostDefocus_px2 = 400, kMostMotion_px = 120;
+inline constexpr double kMaxDefocus_px2 = 400, kMaxMotion_px = 120;
 
 struct LensBlurPlan {
   double variance_px2 = 0;

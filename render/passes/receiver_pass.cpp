@@ -13,7 +13,7 @@ namespace {
 constexpr float kFarthestShadow = 16;  ///< of the object's size
 /// Texels of the lights' texture across the object, and at most along a side.
 constexpr float kTexelsAcrossObject = 192;
-constexpr int kLeastTexels = 16, kMostTexels = 1024;
+constexpr int kMinTexels = 16, kMaxTexels = 1024;
 
 PlaneRect unite(const PlaneRect& a, const PlaneRect& b) {
   return {glm::min(a.min_m, b.min_m), glm::max(a.max_m, b.max_m)};
@@ -95,7 +95,7 @@ void ReceiverPass::light_by(const LightTransfer& transfer, const TagLight& light
 void ReceiverPass::draw_lights(const PlaneRect& rect, const ShadowedLights& lights, const glm::vec3& box_min_m,
                                const glm::vec3& box_max_m) {
   const float texel_m = glm::distance(box_min_m, box_max_m) / kTexelsAcrossObject;
-  const glm::ivec2 size = glm::clamp(glm::ivec2((rect.max_m - rect.min_m) / texel_m) + 8, kLeastTexels, kMostTexels);
+  const glm::ivec2 size = glm::clamp(glm::ivec2((rect.max_m - rect.min_m) / texel_m) + 8, kMinTexels, kMaxTexels);
   // A few texels more, over which the shadow fades where it was cut off.
   const glm::vec2 margin_m = 4.0f * (rect.max_m - rect.min_m) / glm::vec2(size - 8);
   const PlaneRect widened{rect.min_m - margin_m, rect.max_m + margin_m};

@@ -13,7 +13,7 @@ namespace {
 constexpr GLint kSampleLocation = 0;
 /// Of all maps together: 96 maps of 512 texels, 16 bits each.
 constexpr int kTexelBudget = 96 * 512 * 512;
-constexpr int kMostTexels = 2048;  ///< along a map's side
+constexpr int kMaxTexels = 2048;  ///< along a map's side
 
 /// What lies deeper than a texel's middle by its own slope is still the same surface.
 constexpr float kSlopeBias = 1.5f, kDepthBias = 2.0f;
@@ -22,7 +22,7 @@ constexpr float kLiftTexels = 1.5f;
 
 int texels_for(int samples) {
   const auto side = static_cast<unsigned>(std::sqrt(kTexelBudget / std::max(samples, 1)));
-  return std::min(static_cast<int>(std::bit_floor(side)), kMostTexels);
+  return std::min(static_cast<int>(std::bit_floor(side)), kMaxTexels);
 }
 
 GlTexture make_maps(int texels, int layers) {

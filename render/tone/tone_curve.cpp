@@ -13,7 +13,7 @@ namespace {
 constexpr double kDarkest = 0.5 / 255 / 12.92;
 constexpr double kDeltaShare = 1e-3;
 constexpr double kLowShare = 0.01, kHighShare = 0.99;
-constexpr double kMostGain = 64;
+constexpr double kMaxGain = 64;
 
 double percentile(const LuminanceHistogram& histogram, double pixels, double share) {
   double passed = 0;
@@ -52,7 +52,7 @@ SceneLuminance scene_luminance(const LuminanceHistogram& histogram) {
 
 ToneCurve tone_curve(const SceneLuminance& luminance, const ToneSettings& settings) {
   ToneCurve curve;
-  curve.gain = std::min(settings.key / luminance.average, kMostGain);
+  curve.gain = std::min(settings.key / luminance.average, kMaxGain);
   if (!settings.has_white_point) {
     curve.white = std::numeric_limits<double>::infinity();
     return curve;

@@ -10,7 +10,7 @@ namespace {
 constexpr int kColumns = 180, kRows = 45;  // two degrees
 constexpr int kSubsamples = 3;             // along each side of a texel
 /// Of the light that reaches the plane: more cannot come back, but probes and planes are not perfect.
-constexpr double kMostSentBack = 1.2;
+constexpr double kMaxSentBack = 1.2;
 /// Rounded to this, an albedo does not depend on the scale that the probe is in.
 constexpr double kAlbedoStep = 1.0 / 1024;
 
@@ -57,7 +57,7 @@ std::optional<ReceiverAlbedo> albedo_from_probe(const Probe& probe, const glm::d
   const glm::dvec3 arriving = irradiance(probe, probe_from_tag * glm::dvec3(0, 0, 1));
   const glm::dvec3 leaving = irradiance(probe, probe_from_tag * glm::dvec3(0, 0, -1));
   for (int c = 0; c < 3; ++c)
-    if (leaving[c] > kMostSentBack * arriving[c]) return std::nullopt;
+    if (leaving[c] > kMaxSentBack * arriving[c]) return std::nullopt;
   ReceiverAlbedo albedo{probe_in_tag_m, Image(kColumns, kRows)};
   for (int y = 0; y < kRows; ++y) {
     for (int x = 0; x < kColumns; ++x) {

@@ -20,8 +20,8 @@ constexpr std::size_t kPointsPerTask = 64;
 // pixel.
 constexpr float kLift = 1e-5f;
 
-constexpr float kLeastBounce = 0.004f;  // of the brightest spot: what comes back of less is below one code of 255
-constexpr int kLeastRays = 256;
+constexpr float kMinBounce = 0.004f;  // of the brightest spot: what comes back of less is below one code of 255
+constexpr int kMinRays = 256;
 
 using Basis = std::array<float, kMaxShBands * kMaxShBands>;
 
@@ -161,8 +161,8 @@ class Baker {
   void bake_bounces(Transfer& transfer, const BuriedVertices& buried, const std::vector<char>& covered) {
     const std::size_t vertices = mesh_.vertices.size();
     std::vector<glm::vec3> last = transfer.object_direct, sent_up = sent_up_by(transfer.receiver_direct, transfer.grid);
-    for (int bounce = 0; bounce < options_.bounces && largest(last) > kLeastBounce * largest(transfer.object); ++bounce) {
-      const int rays = std::max(options_.rays >> (2 * bounce), std::min(options_.rays, kLeastRays));
+    for (int bounce = 0; bounce < options_.bounces && largest(last) > kMinBounce * largest(transfer.object); ++bounce) {
+      const int rays = std::max(options_.rays >> (2 * bounce), std::min(options_.rays, kMinRays));
       std::vector<glm::vec3> next(last.size()), on_receiver(transfer.receiver.size());
       for_points(vertices, [&](std::size_t v) { gather(v, rays, last, transfer, sent_up, bounce == 0, coefficients(next, v)); });
       for_points(transfer.grid.points(),

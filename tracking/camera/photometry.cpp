@@ -131,7 +131,7 @@ namespace {
 std::optional<TagPhotometry> unmixed_photometry(const LinearPatch& patch, const CameraModel& camera,
                                                 const RigidTransform& camera_from_tag, const TagTarget& target,
                                                 const TagLayout& layout, const Covariance2& blur_px2) {
-  constexpr double kLeastSpread = 0.02;  // variance of the share of white: less leaves nothing to tell them apart by
+  constexpr double kMinSpread = 0.02;  // variance of the share of white: less leaves nothing to tell them apart by
   const TagView view(camera, camera_from_tag, target.size_m, layout.cells_across);
   const TagPattern pattern(layout);
   TagPhotometry photometry;
@@ -153,7 +153,7 @@ std::optional<TagPhotometry> unmixed_photometry(const LinearPatch& patch, const 
       l += linear, wl += sample.white * linear;
     }
   const double spread = n * ww - w * w;
-  if (!(spread > kLeastSpread * n * n)) return std::nullopt;
+  if (!(spread > kMinSpread * n * n)) return std::nullopt;
   const glm::dvec3 gain = (n * wl - w * l) / spread;
   photometry.black_linear = glm::max((l - gain * w) / n, glm::dvec3(0.0));
   photometry.white_linear = photometry.black_linear + gain;
@@ -185,8 +185,8 @@ std::optional<TagPhotometry> measure_photometry(const LinearPatch& patch, const 
       (ink == Ink::white ? photometry.white_pixels : photometry.black_pixels) += mean.pixels;
     }
   // Fewer than a ring's worth of either would let a single stain decide.
-  constexpr std::size_t kFewestCells = 8;
-  if (white.size() < kFewestCells || black.size() < kFewestCells)
+  constexpr std::size_t kMinCells = 8;
+  if (white.size() < kMinCells || black.size() < kMinCells)
     return blur_px2 ? unmixed_photometry(patch, camera, camera_from_tag, target, layout, *blur_px2) : std::nullopt;
   for (int c = 0; c < 3; ++c) {
     photometry.white_linear[c] = trimmed_mean(white, c);

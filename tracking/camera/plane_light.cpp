@@ -70,11 +70,11 @@ struct Ratio {
 
 /// Of the first `places` that are known in both.
 std::vector<Ratio> ratios_of(const PlaneLight& now, const PlaneLight& then, int channel, std::size_t places) {
-  constexpr float kLeastLinear = 1e-3f;  // a quarter of a code of 8 bits in sRGB: darker places say nothing
+  constexpr float kMinLinear = 1e-3f;  // a quarter of a code of 8 bits in sRGB: darker places say nothing
   std::vector<Ratio> ratios;
   for (std::size_t i = 0; i < std::min({places, now.linear.size(), then.linear.size()}); ++i) {
     const float bright = now.linear[i][channel], before = then.linear[i][channel];
-    if (!(bright > kLeastLinear && before > kLeastLinear)) continue;
+    if (!(bright > kMinLinear && before > kMinLinear)) continue;
     ratios.push_back({static_cast<double>(bright) / static_cast<double>(before),
                       static_cast<double>(std::min(now.samples[i], then.samples[i]) * before)});
   }
@@ -87,8 +87,8 @@ struct MiddleHalf {
 
 /// Of the weights laid end to end, what lies in the middle.
 std::optional<MiddleHalf> middle_half(std::vector<Ratio> ratios) {
-  constexpr std::size_t kFewestPlaces = 8;
-  if (ratios.size() < kFewestPlaces) return std::nullopt;
+  constexpr std::size_t kMinPlaces = 8;
+  if (ratios.size() < kMinPlaces) return std::nullopt;
   std::sort(ratios.begin(), ratios.end(), [](const Ratio& a, const Ratio& b) { return a.value < b.value; });
   double whole = 0, at = 0, sum = 0;
   for (const Ratio& ratio : ratios) whole += ratio.weight;
@@ -141,9 +141,9 @@ PlaneLight measure_plane(const LinearPatch& patch, const CameraModel& camera, co
 }
 
 std::optional<double> brightening(const PlaneLight& now, const PlaneLight& then, int channel) {
-  constexpr double kMostSpread = 1.05;  // a still surface: 1.02 through H.264; another one: 1.1 and far more
+  constexpr double kMaxSpread = 1.05;  // a still surface: 1.02 through H.264; another one: 1.1 and far more
   const auto all = middle_half(ratios_of(now, then, channel, now.linear.size()));
-  if (all && all->high <= kMostSpread * all->low) return all->mean;
+  if (all && all->high <= kMaxSpread * all->low) return all->mean;
   const std::size_t tag_cells = now.linear.size() - std::min(now.linear.size(), kPatches);
   const auto cells = middle_half(ratios_of(now, then, channel, tag_cells));
   return cells ? std::optional(cells->mean) : std::nullopt;

@@ -11,7 +11,7 @@ namespace {
 /// How far a frame's orientation strays from steady motion: noise of a small tag, and the hand's acceleration.
 constexpr double kTurnNoise_rad = 0.09, kTurnNoise_rad_per_s = 0.6;
 /// A continuation is never quite impossible, nor a hypothesis quite dead: history has to stay correctable.
-constexpr double kLeastContinuity = 1e-3, kLeastProbability = 1e-4;
+constexpr double kMinContinuity = 1e-3, kMinProbability = 1e-4;
 /// Steady gains of the alpha-beta filter, nearly critically damped (beta = alpha² / (2 − alpha)).
 constexpr double kPositionGain = 0.4, kVelocityGain = 0.1;
 /// The other pose has to be this much likelier before the choice changes.
@@ -59,7 +59,7 @@ PoseMemory::Hypothesis PoseMemory::with_history(const PoseCandidate& seen, doubl
   double probability = count_ == 0 ? 1 : 0, largest = 0;
   for (std::size_t j = 0; j < count_; ++j) {
     const RigidTransform expected = moved(hypotheses_[j], hypotheses_[j].smoothed, dt_s);
-    const double fits = continuity(expected.rotation, seen.camera_from_tag.rotation, dt_s) + kLeastContinuity;
+    const double fits = continuity(expected.rotation, seen.camera_from_tag.rotation, dt_s) + kMinContinuity;
     const double share = fits * hypotheses_[j].probability;
     probability += share;
     if (share > largest) {
@@ -93,7 +93,7 @@ std::size_t PoseMemory::choose(std::span<const PoseCandidate> candidates, double
     sum += now[i].probability;
   }
   for (std::size_t i = 0; i < seen.size(); ++i)
-    now[i].probability = std::max(now[i].probability / std::max(sum, 1e-300), kLeastProbability);
+    now[i].probability = std::max(now[i].probability / std::max(sum, 1e-300), kMinProbability);
 
   const std::size_t likelier = seen.size() == 2 && now[1].probability > now[0].probability ? 1 : 0;
   const std::size_t kept = count_ == 0 ? likelier : heir(std::span(now).first(seen.size()), dt_s);

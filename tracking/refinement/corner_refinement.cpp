@@ -17,8 +17,8 @@ constexpr double kReachPx = 6;            ///< enough for both plateaus at any b
 constexpr double kCornerClearancePx = 3;  ///< where the other edge's blur no longer shows
 constexpr double kLargestShiftPx = 2;
 constexpr double kSettledPx = 0.05;  ///< shifts below it would choose the same pixels again
-constexpr int kMostPasses = 3;
-constexpr double kMostColumns = 256;  ///< along an edge; more cost time and gain less than 0.003 px
+constexpr int kMaxPasses = 3;
+constexpr double kMaxColumns = 256;  ///< along an edge; more cost time and gain less than 0.003 px
 
 LinearTable linear_table(const LumaView& luma) {
   LinearTable table;
@@ -91,7 +91,7 @@ class EdgeSampler {
     const glm::dvec2 chord = seen_px(1) - seen_px(0);
     steep_ = std::abs(chord.y) > std::abs(chord.x);
     span_px_ = std::abs(chord[steep_]);
-    stride_ = std::max(1, static_cast<int>(std::ceil(span_px_ / kMostColumns)));
+    stride_ = std::max(1, static_cast<int>(std::ceil(span_px_ / kMaxColumns)));
   }
 
   /// Walks along the edge as seen, in pieces short enough that the lens bends none of them.
@@ -174,7 +174,7 @@ RefinedCorners refine_corners(const LumaView& luma, const CameraModel& camera, c
   }
   const LinearTable linear = linear_table(luma);
   double shift_px = kLargestShiftPx;
-  for (int pass = 0; pass < kMostPasses && shift_px > kSettledPx; ++pass) {
+  for (int pass = 0; pass < kMaxPasses && shift_px > kSettledPx; ++pass) {
     shift_px = 0;
     std::array<Line, 4> lines;
     for (int i = 0; i < 4; ++i) {

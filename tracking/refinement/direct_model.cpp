@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kParameters = kSharedParameters + kLightParameters;
 /// A pixel's own square spreads light by 1/12 px²; beyond 6 px nothing of any tag is left to see.
-constexpr double kLeastBlur_px2 = 0.08, kMostBlur_px2 = 36;
+constexpr double kMinBlur_px2 = 0.08, kMaxBlur_px2 = 36;
 
 /// Upper triangle and, as a last column, the right side of one part's equations. Plain arrays of even width: this is where the
 /// time goes.
@@ -108,8 +108,8 @@ void add_to(NormalEquations& equations, const Sums& sums) {
 Covariance2 plausible_blur(const Covariance2& blur) {
   const double middle = (blur.xx + blur.yy) / 2, half = (blur.xx - blur.yy) / 2;
   const double radius = std::hypot(half, blur.xy);
-  const double large = std::clamp(middle + radius, kLeastBlur_px2, kMostBlur_px2);
-  const double small = std::clamp(middle - radius, kLeastBlur_px2, kMostBlur_px2);
+  const double large = std::clamp(middle + radius, kMinBlur_px2, kMaxBlur_px2);
+  const double small = std::clamp(middle - radius, kMinBlur_px2, kMaxBlur_px2);
   const double new_middle = (large + small) / 2, shrink = radius > 1e-12 ? (large - small) / 2 / radius : 0;
   return {new_middle + half * shrink, blur.xy * shrink, new_middle - half * shrink};
 }

@@ -12,11 +12,11 @@
 namespace catchlight::tracking {
 namespace {
 
-constexpr std::size_t kFewestPixels = 40;
-constexpr std::size_t kMostPixels = 2200, kMostCoarsePixels = 1000;
+constexpr std::size_t kMinPixels = 40;
+constexpr std::size_t kMaxPixels = 2200, kMaxCoarsePixels = 1000;
 constexpr double kCoarseCellPx = 3;                 ///< blocks leave cells at least this large: smaller ones run together
 constexpr double kLossSigmas = 4;                   ///< the loss keeps 93 % of least squares' efficiency on Gaussian noise
-constexpr double kLeastNoiseCodes = 0.35;           ///< rounding alone leaves 0.29
+constexpr double kMinNoiseCodes = 0.35;           ///< rounding alone leaves 0.29
 constexpr double kNearPx = 0.1, kSettledPx = 0.01;  ///< Gauss-Newton's next step would be a tenth of that
 /// What a frame's own fit may say against the usual: blur changes by a few px², light across a tag by a third.
 constexpr double kBlurPrior_px2 = 2, kLightPrior = 0.3;
@@ -117,9 +117,9 @@ struct DirectRefiner::Impl {
       if (glm::dot(camera_from_tag.rotation[2], camera_from_tag.translation_m) >= 0) continue;  // its back
       const TagView view(camera, camera_from_tag, tags[i].size_m, patterns[i].cells_across());
       PixelChoice share = choice;
-      share.most = std::max(choice.most / tags.size(), 4 * kFewestPixels);
+      share.most = std::max(choice.most / tags.size(), 4 * kMinPixels);
       auto pixels = choose_pixels(luma, camera, ideal_pixels, *response, patterns[i], view, share);
-      if (pixels.size() < kFewestPixels) continue;
+      if (pixels.size() < kMinPixels) continue;
       parts.push_back({&patterns[i], tags[i].size_m, tags[i].tag_from_this, std::move(pixels)});
     }
     return {camera, *response, std::move(parts)};
@@ -144,16 +144,16 @@ struct DirectRefiner::Impl {
 
   /// Levenberg-Marquardt at one level of noise.
   void minimize(const DirectModel& model, Fit& fit, const Covariance2& usual_blur, double until_px) const {
-    constexpr int kMostSteps = 10;
-    constexpr double kFirstDamping = 1e-4, kMostDamping = 1e3;
+    constexpr int kMaxSteps = 10;
+    constexpr double kFirstDamping = 1e-4, kMaxDamping = 1e3;
     double damping = kFirstDamping;
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < kMaxSteps; ++step) {
       const auto next = stepped(fit.at, fit.linearized.equations, damping);
       std::optional<DirectModel::Linearized> there;
       if (next) there = linearize(model, *next, usual_blur, fit.noise, fit.is_light_even);
       if (!there || !(there->equations.cost <= fit.linearized.equations.cost)) {
         damping = std::max(damping, 1e-3) * 10;
-        if (damping > kMostDamping) return;
+        if (damping > kMaxDamping) return;
         continue;
       }
       const double moved = moved_px(camera, fit.at, *next, reach_m);
@@ -167,14 +167,14 @@ struct DirectRefiner::Impl {
   /// With the noise that the start has, then with what is left of it, as long as it falls: under a lenient loss, what covers a
   /// part of the tag still pulls.
   Fit solve(const DirectModel& model, const DirectParameters& start) const {
-    constexpr int kMostRounds = 6;
+    constexpr int kMaxRounds = 6;
     constexpr double kFallen = 0.9;
-    const double least = kLeastNoiseCodes / response->codes_per_unit();
+    const double least = kMinNoiseCodes / response->codes_per_unit();
     Fit fit{start, {}, robust_noise(model.residuals(start, kSparse), least), 1};
     const auto has_slope = [](const TagLight& light) { return light.gain_u != 0 || light.gain_v != 0; };
     fit.is_light_even = std::none_of(start.light.begin(), start.light.end(), has_slope);
     fit.linearized = linearize(model, fit.at, start.blur_px2, fit.noise, fit.is_light_even);
-    for (int round = 0; round < kMostRounds; ++round) {
+    for (int round = 0; round < kMaxRounds; ++round) {
       minimize(model, fit, start.blur_px2, round == 0 ? kNearPx : kSettledPx);
       const double noise = robust_noise(fit.linearized.residuals, least);
       const bool has_fallen = noise < kFallen * fit.noise;
@@ -189,10 +189,10 @@ struct DirectRefiner::Impl {
 
   /// As solve(), then without what is covered: `model` keeps the pixels that count.
   Fit solve_uncovered(DirectModel& model, const DirectParameters& start) const {
-    constexpr int kMostRounds = 2;  // the first leaves less noise, in which fainter covers show
+    constexpr int kMaxRounds = 2;  // the first leaves less noise, in which fainter covers show
     Fit fit = solve(model, start);
     fit.is_another_print = shows_another_print(camera, *response, model.parts(), fit.at);
-    for (int round = 0; round < kMostRounds && !fit.is_another_print; ++round) {
+    for (int round = 0; round < kMaxRounds && !fit.is_another_print; ++round) {
       auto uncovered = leave_out_covered(camera, model, fit.at, fit.linearized.residuals, {kLossSigmas * fit.noise});
       if (!uncovered) break;
       model = DirectModel(camera, *response, std::move(uncovered->parts));
@@ -228,7 +228,7 @@ struct DirectRefiner::Impl {
     if (block < 2) return true;
     const double box_px2 = (block * block - 1) / 12.0;
     at.blur_px2 = {at.blur_px2.xx + box_px2, at.blur_px2.xy, at.blur_px2.yy + box_px2};
-    const auto model = model_with_light(luma, at, {at.blur_px2, error_px / 2, block, kMostCoarsePixels});
+    const auto model = model_with_light(luma, at, {at.blur_px2, error_px / 2, block, kMaxCoarsePixels});
     if (!model) return false;
     at = solve(*model, at).at;
     at.blur_px2 = {std::max(at.blur_px2.xx - box_px2, 0.1), at.blur_px2.xy, std::max(at.blur_px2.yy - box_px2, 0.1)};
@@ -288,7 +288,7 @@ std::optional<DirectFit> DirectRefiner::refine(const LumaView& luma, const Direc
   if (!impl.response || !impl.response->fits(luma)) impl.response.emplace(luma);
   DirectParameters at{start.camera_from_tag, start.blur_px2, {}};
   if (!impl.approach(luma, at, start.error_px)) return std::nullopt;
-  auto model = impl.model_with_light(luma, at, {at.blur_px2, std::min(start.error_px, 1.0) / 2, 1, kMostPixels});
+  auto model = impl.model_with_light(luma, at, {at.blur_px2, std::min(start.error_px, 1.0) / 2, 1, kMaxPixels});
   if (!model) return std::nullopt;
   Impl::Fit fit = impl.solve_uncovered(*model, at);
   impl.last.emplace(Impl::Solved{std::move(*model), std::move(fit)});

@@ -12,7 +12,7 @@ namespace catchlight::tracking {
 namespace {
 
 constexpr int kParameters = 8;
-constexpr std::size_t kFewestPixels = 24;
+constexpr std::size_t kMinPixels = 24;
 constexpr double kTuning = 2.4;  ///< Cauchy's loss at this many standard deviations keeps 95 % efficiency on Gaussian noise
 using Vector = cv::Matx<double, kParameters, 1>;
 using Matrix = cv::Matx<double, kParameters, kParameters>;
@@ -139,7 +139,7 @@ Vector minimize(Vector p, std::span<const EdgePixel> pixels, const Cost& cost, d
 }  // namespace
 
 std::optional<EdgeFit> fit_edge(std::span<const EdgePixel> pixels) {
-  if (pixels.size() < kFewestPixels) return std::nullopt;
+  if (pixels.size() < kMinPixels) return std::nullopt;
   const auto guess = first_guess(pixels);
   if (!guess) return std::nullopt;
   Vector p = *guess;

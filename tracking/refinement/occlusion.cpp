@@ -9,10 +9,10 @@ namespace catchlight::tracking {
 namespace {
 
 constexpr double kFittingWeight = 0.4;  ///< mean weight of a cell's pixels below which it is covered
-constexpr double kFewestPixels = 5;     ///< of a cell, to tell
-constexpr int kFewestCells = 3;         ///< smaller faults are for the robust loss
-constexpr double kLeastShare = 0.45;    ///< of the pixels, that have to stay: another print would match in as much as its border
-constexpr std::size_t kFewestOfPart = 40;
+constexpr double kMinPixels = 5;     ///< of a cell, to tell
+constexpr int kMinCells = 3;         ///< smaller faults are for the robust loss
+constexpr double kMinShare = 0.45;    ///< of the pixels, that have to stay: another print would match in as much as its border
+constexpr std::size_t kMinOfPart = 40;
 
 /// The cells of one part and the ring around them.
 class CellMap {
@@ -58,7 +58,7 @@ class CellMap {
   }
 
   bool is_covered(std::size_t cell) const {
-    return count_[cell] >= kFewestPixels && weight_[cell] < kFittingWeight * count_[cell];
+    return count_[cell] >= kMinPixels && weight_[cell] < kFittingWeight * count_[cell];
   }
 
   TagView view_;
@@ -127,17 +127,17 @@ std::optional<Uncovered> leave_out_covered(const CameraModel& camera, const Dire
       places.push_back(map.place_of(pixel));
       if (residual.known && places.back()) map.add(*places.back(), loss.weight(residual.code));
     }
-    const bool is_whole = map.covered_cells() < kFewestCells;
+    const bool is_whole = map.covered_cells() < kMinCells;
     TagPart left{part.pattern, part.size_m, part.target_from_tag, {}};
     for (std::size_t k = 0; k < part.pixels.size(); ++k)
       if (is_whole || (places[k] && !map.is_suspect(*places[k]))) left.pixels.push_back(part.pixels[k]);
-    if (left.pixels.size() < kFewestOfPart) continue;
+    if (left.pixels.size() < kMinOfPart) continue;
     kept += left.pixels.size();
     result.parts.push_back(std::move(left));
     result.light.push_back(at.light[i]);
   }
   result.kept_share = static_cast<double>(kept) / static_cast<double>(std::max<std::size_t>(index, 1));
-  if (kept == index || result.kept_share < kLeastShare) return std::nullopt;
+  if (kept == index || result.kept_share < kMinShare) return std::nullopt;
   return result;
 }
 

@@ -10,7 +10,7 @@ namespace {
 /// Nodes lie evenly in each octave of light above the darkest code's, as a float's bits do: curves with a power for a shadow
 /// (gamma, PQ, HLG) bend within a few octaves of black, where even steps of light would be tens of codes apart.
 constexpr int kStepBits = 6, kBitsBelow = 23 - kStepBits;
-constexpr float kLeastLight = 0x1p-26f;  ///< a tenth of gamma 2.8's first code
+constexpr float kMinLight = 0x1p-26f;  ///< a tenth of gamma 2.8's first code
 
 std::uint32_t node_of(float light) {
   return std::bit_cast<std::uint32_t>(light) >> kBitsBelow;
@@ -42,8 +42,8 @@ ResponseTable::ResponseTable(const LumaView& luma)
   };
   first_code_ = code_at(0);
   last_code_ = normalised(255);
-  double here = code_at(kLeastLight);
-  for (std::uint32_t node = node_of(kLeastLight); light_of(node) < light_range_; ++node) {
+  double here = code_at(kMinLight);
+  for (std::uint32_t node = node_of(kMinLight); light_of(node) < light_range_; ++node) {
     const double next = code_at(light_of(node + 1)), step = light_of(node + 1) - light_of(node);
     nodes_.push_back({static_cast<float>(here), static_cast<float>((next - here) / step)});
     here = next;
@@ -54,10 +54,10 @@ ResponseTable::Code ResponseTable::code(double linear) const {
   const double light = linear - first_linear_;
   if (!(light > 0)) return {first_code_, 0};
   if (light >= light_range_) return {last_code_, 0};
-  if (light < kLeastLight)
-    return {first_code_ + light / kLeastLight * (nodes_[0].value - first_code_), (nodes_[0].value - first_code_) / kLeastLight};
+  if (light < kMinLight)
+    return {first_code_ + light / kMinLight * (nodes_[0].value - first_code_), (nodes_[0].value - first_code_) / kMinLight};
   const std::uint32_t place = node_of(static_cast<float>(light));
-  const Node& node = nodes_[std::min<std::size_t>(place - node_of(kLeastLight), nodes_.size() - 1)];
+  const Node& node = nodes_[std::min<std::size_t>(place - node_of(kMinLight), nodes_.size() - 1)];
   return {node.value + (light - light_of(place)) * node.slope, node.slope};
 }
 

@@ -11,19 +11,19 @@ namespace {
 
 constexpr int kPaperCells = 3;        ///< white around the print, as far as any blur reaches
 constexpr double kReachSigmas = 3.5;  ///< what lies beyond adds less than 3e-4
-constexpr int kMostLines = 16;        ///< within reach along one axis; a blur that wide leaves nothing to see
+constexpr int kMaxLines = 16;        ///< within reach along one axis; a blur that wide leaves nothing to see
 
 /// The grid lines of one axis that are within reach.
 struct Lines {
   double variance, sigma;
   int first, count;
-  double at[kMostLines];  ///< standardised distances
-  Normal normal[kMostLines];
+  double at[kMaxLines];  ///< standardised distances
+  Normal normal[kMaxLines];
 
   Lines(double place, double blur) : variance(blur), sigma(std::sqrt(blur)) {
     const double reach = kReachSigmas * sigma;
     first = static_cast<int>(std::ceil(place - reach));
-    count = std::clamp(static_cast<int>(std::floor(place + reach)) - first + 1, 0, kMostLines);
+    count = std::clamp(static_cast<int>(std::floor(place + reach)) - first + 1, 0, kMaxLines);
     for (int i = 0; i < count; ++i) {
       at[i] = (place - (first + i)) / sigma;
       normal[i] = tracking::normal(at[i]);
@@ -80,7 +80,7 @@ PatternSample TagPattern::sample(const glm::dvec2& cell, const Covariance2& blur
   PatternSample result;
   const Lines columns(cell.x, blur.xx), rows(cell.y, blur.yy);
   const double sigma_u = columns.sigma, sigma_v = rows.sigma;
-  float cells[kMostLines + 1][kMostLines + 1];
+  float cells[kMaxLines + 1][kMaxLines + 1];
   for (int j = 0; j <= rows.count; ++j)
     for (int i = 0; i <= columns.count; ++i) {
       cells[j][i] = white(columns.first - 1 + i, rows.first - 1 + j);
@@ -89,7 +89,7 @@ PatternSample TagPattern::sample(const glm::dvec2& cell, const Covariance2& blur
   result.known = true;
   result.white = white(columns.first - 1, rows.first - 1);
   add_straight_edges(columns, &cells[0][0], 1, result, result.gradient.x, result.uu);
-  add_straight_edges(rows, &cells[0][0], kMostLines + 1, result, result.gradient.y, result.vv);
+  add_straight_edges(rows, &cells[0][0], kMaxLines + 1, result, result.gradient.y, result.vv);
   if (columns.count == 0 || rows.count == 0) return result;
 
   const double rho = std::clamp(blur.xy / (sigma_u * sigma_v), -0.999, 0.999), root = std::sqrt(1 - rho * rho);

@@ -13,7 +13,7 @@ namespace {
 /// Hands turn a camera at up to about this, rad/s².
 constexpr double kTurnAcceleration = 12;
 /// No single frame, and no single jolt, decides a path.
-constexpr double kMostEvidence = 6, kMostSurprise = 10;
+constexpr double kMaxEvidence = 6, kMaxSurprise = 10;
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 /// Log-probabilities of a pair of candidates, of the frame before and of this one.
@@ -32,7 +32,7 @@ double log_sum(double a, double b) {
 double evidence(const PathFrame& frame, std::size_t candidate) {
   double best = kNever;
   for (const PoseCandidate& each : frame.candidates) best = std::max(best, each.log_likelihood);
-  return std::max(frame.candidates[candidate].log_likelihood - best, -kMostEvidence);
+  return std::max(frame.candidates[candidate].log_likelihood - best, -kMaxEvidence);
 }
 
 /// How likely a third orientation is after two, up to a constant.
@@ -43,7 +43,7 @@ double continuity(const PathFrame& first, std::size_t a, const PathFrame& second
   const double lag_s = third.time_s - second.time_s;
   const double jolt_rad = kTurnAcceleration * lag_s * std::max(lag_s, second.time_s - first.time_s);
   return std::max(log_density(turn, jolt_rad * jolt_rad) - log_density({{}, turn.covariance}, jolt_rad * jolt_rad),
-                  -kMostSurprise);
+                  -kMaxSurprise);
 }
 
 /// Two orientations without a third before them: nearer is likelier.
@@ -52,7 +52,7 @@ double closeness(const PathFrame& first, std::size_t a, const PathFrame& second,
   const Unsteadiness turn = plain_turn(first.candidates[a], second.candidates[b]);
   constexpr double kTurnSpeed = 1.5;  // rad/s
   const double usual = kTurnSpeed * kTurnSpeed * lag_s * lag_s;
-  return std::max(log_density(turn, usual) - log_density({{}, turn.covariance}, usual), -kMostSurprise);
+  return std::max(log_density(turn, usual) - log_density({{}, turn.covariance}, usual), -kMaxSurprise);
 }
 
 class Chain {

@@ -78,8 +78,8 @@ class TagBoard : public CalibrationBoard {
     std::vector<double> blurs_px;
     for (const auto& [index, detection] : tags_of_the_board(detector_.detect(luma)))
       add_tag(view, blurs_px, index, tracking::refine_corners(luma, lens, detection.corners_px, layouts_[index]));
-    constexpr std::size_t kFewestTags = 4;
-    if (view.points_px.size() < 4 * kFewestTags) return {};
+    constexpr std::size_t kMinTags = 4;
+    if (view.points_px.size() < 4 * kMinTags) return {};
     view.blur_px = median(std::move(blurs_px));
     return view;
   }

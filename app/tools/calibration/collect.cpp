@@ -16,9 +16,9 @@
 namespace catchlight::app {
 namespace {
 
-constexpr std::int64_t kMostTries = 150;
+constexpr std::int64_t kMaxTries = 150;
 constexpr std::int64_t kStretchOfUnknown = 5;  ///< frames; where the footage does not say how long it is
-constexpr std::size_t kMostViews = 40;
+constexpr std::size_t kMaxViews = 40;
 constexpr double kBlurRatio = 2;
 constexpr double kGuessedFovDeg = 60;
 
@@ -67,13 +67,13 @@ double distance(const Look& a, const Look& b) {
   return sum;
 }
 
-/// Never more than kMostViews.
+/// Never more than kMaxViews.
 class ViewPool {
  public:
   void add(SeenBoard board) {
     looks_.push_back(look_of(board.view, board.frame.width_px(), board.frame.height_px()));
     boards_.push_back(std::move(board));
-    if (boards_.size() <= kMostViews) return;
+    if (boards_.size() <= kMaxViews) return;
     const auto dropped = static_cast<std::ptrdiff_t>(most_dispensable());
     boards_.erase(boards_.begin() + dropped);
     looks_.erase(looks_.begin() + dropped);
@@ -186,7 +186,7 @@ class BoardSearch {
 CollectedViews collect_views(MediaSource& source, CalibrationBoard& board, const FrameRange& range, Log& log) {
   const SourceInfo& info = source.info();
   const auto total = frames_in_range(info, range);
-  const std::int64_t stretch = total ? std::max<std::int64_t>(1, (*total + kMostTries - 1) / kMostTries) : kStretchOfUnknown;
+  const std::int64_t stretch = total ? std::max<std::int64_t>(1, (*total + kMaxTries - 1) / kMaxTries) : kStretchOfUnknown;
   CollectedViews views;
   views.width_px = info.width_px;
   views.height_px = info.height_px;

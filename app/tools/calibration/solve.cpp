@@ -13,10 +13,10 @@
 namespace catchlight::app {
 namespace {
 
-constexpr std::size_t kFewestViews = 4;
+constexpr std::size_t kMinViews = 4;
 constexpr double kOutlierRatio = 3;
 constexpr double kNegligiblePx = 0.05;      ///< views this good are no outliers, however good the others are
-constexpr double kLeastPerspective = 0.02;  ///< nearest point over farthest, less 1, of the most tilted view
+constexpr double kMinPerspective = 0.02;  ///< nearest point over farthest, less 1, of the most tilted view
 constexpr double kWorstFocal = 0.05;        ///< standard deviation over the focal length
 constexpr double kRadToDeg = 180 / std::numbers::pi;
 
@@ -109,12 +109,12 @@ double perspective(const BoardView& view) {
 }
 
 void check_views(const std::vector<BoardView>& views, const std::string& why) {
-  if (views.size() < kFewestViews)
+  if (views.size() < kMinViews)
     throw Error("only " + std::to_string(views.size()) + " usable views of the board" + why + "; at least " +
-                std::to_string(kFewestViews) + " are needed, and 10 to 40 are good: film it from more sides");
+                std::to_string(kMinViews) + " are needed, and 10 to 40 are good: film it from more sides");
   double most = 0;
   for (const BoardView& view : views) most = std::max(most, perspective(view));
-  if (most < kLeastPerspective) refuse_frontal();
+  if (most < kMinPerspective) refuse_frontal();
 }
 
 /// The best model for these views.

@@ -69,7 +69,7 @@ float at(const cv::Mat& picture, const glm::dvec2& px) {
 /// Where it is steeper than around, along a ray from the circle's centre. Steps only: towards the rim reflections are pressed
 /// together, and slope more than many a silhouette.
 std::vector<double> edge_radii(const cv::Mat& log_picture, const BallCircle& circle, const glm::dvec2& outward, double reach_px) {
-  constexpr double kLeastStep = 0.05, kStepPx = 0.25, kHalfPx = 0.5, kSharper = 2;
+  constexpr double kMinStep = 0.05, kStepPx = 0.25, kHalfPx = 0.5, kSharper = 2;
   const double aside_px = std::max(2.0, 0.015 * circle.radius_px);
   const auto steepness = [&](double radius) {
     return std::abs(at(log_picture, circle.centre_px + (radius + kHalfPx) * outward) -
@@ -78,7 +78,7 @@ std::vector<double> edge_radii(const cv::Mat& log_picture, const BallCircle& cir
   std::vector<double> radii;
   for (double radius = circle.radius_px - reach_px; radius <= circle.radius_px + reach_px; radius += kStepPx) {
     const double here = steepness(radius);
-    if (here < kLeastStep || here <= steepness(radius - kStepPx) || here < steepness(radius + kStepPx)) continue;
+    if (here < kMinStep || here <= steepness(radius - kStepPx) || here < steepness(radius + kStepPx)) continue;
     if (here > kSharper * std::max(steepness(radius - aside_px), steepness(radius + aside_px))) radii.push_back(radius);
   }
   return radii;

@@ -124,9 +124,9 @@ std::optional<CameraModel> camera_for(const MergeRequest& request, const Image& 
 }
 
 void check_circle(const BallCircle& circle, const Image& image) {
-  constexpr double kLeastRadiusPx = 8;
+  constexpr double kMinRadiusPx = 8;
   const glm::dvec2 low = circle.centre_px - circle.radius_px, high = circle.centre_px + circle.radius_px;
-  if (circle.radius_px < kLeastRadiusPx || low.x < -1 || low.y < -1 || high.x > image.width || high.y > image.height)
+  if (circle.radius_px < kMinRadiusPx || low.x < -1 || low.y < -1 || high.x > image.width || high.y > image.height)
     throw UsageError("--ball " + fixed_text(circle.centre_px.x, 1) + "," + fixed_text(circle.centre_px.y, 1) + "," +
                      fixed_text(circle.radius_px, 1) + " does not lie in the picture of " + std::to_string(image.width) + " x " +
                      std::to_string(image.height) + " pixels, or is smaller than 8 pixels in radius");

@@ -32,7 +32,7 @@ double trust(int code) {
 
 /// Whether the pixels around are nearly as this one in every photograph: there a camera that moved by a pixel does no harm.
 bool is_flat(const Bracket& bracket, const cv::Point& at) {
-  constexpr int kMostSpread = 10;
+  constexpr int kMaxSpread = 10;
   for (const Photograph& photograph : bracket) {
     int low = 255, high = 0;
     for (int dy = -1; dy <= 1; ++dy)
@@ -41,7 +41,7 @@ bool is_flat(const Bracket& bracket, const cv::Point& at) {
         low = std::min(low, green);
         high = std::max(high, green);
       }
-    if (high - low > kMostSpread) return false;
+    if (high - low > kMaxSpread) return false;
   }
   return true;
 }
@@ -49,7 +49,7 @@ bool is_flat(const Bracket& bracket, const cv::Point& at) {
 /// Flat pixels, chosen so that all codes occur about as often: most of a picture is of few codes, and a curve is only known
 /// where there are some.
 std::vector<cv::Point> sample_pixels(const Bracket& bracket) {
-  constexpr int kTries = 200000, kCodesPerBin = 8, kMostPerBin = 60;
+  constexpr int kTries = 200000, kCodesPerBin = 8, kMaxPerBin = 60;
   const cv::Size size = bracket.front().codes.size();
   if (size.width < 3 || size.height < 3) return {};
   std::vector<std::array<int, 256 / kCodesPerBin>> counts(bracket.size());
@@ -60,7 +60,7 @@ std::vector<cv::Point> sample_pixels(const Bracket& bracket) {
     const auto bin = [&](std::size_t k) -> int& { return counts[k][bracket[k].codes.at<cv::Vec3b>(y, x)[1] / kCodesPerBin]; };
     bool is_wanted = false;
     for (std::size_t k = 0; k < bracket.size(); ++k)
-      is_wanted = is_wanted || (trust(bracket[k].codes.at<cv::Vec3b>(y, x)[1]) > 0 && bin(k) < kMostPerBin);
+      is_wanted = is_wanted || (trust(bracket[k].codes.at<cv::Vec3b>(y, x)[1]) > 0 && bin(k) < kMaxPerBin);
     if (!is_wanted || !is_flat(bracket, {x, y})) continue;
     for (std::size_t k = 0; k < bracket.size(); ++k) ++bin(k);
     samples.emplace_back(x, y);
@@ -132,14 +132,14 @@ Fit fit_channel(const Bracket& bracket, const std::vector<cv::Point>& samples, i
 }  // namespace
 
 ResponseCurves recover_response(const Bracket& bracket) {
-  constexpr std::size_t kFewestEquations = 100;
-  constexpr double kMostEv = 0.25;
+  constexpr std::size_t kMinEquations = 100;
+  constexpr double kMaxEv = 0.25;
   const std::vector<cv::Point> samples = sample_pixels(bracket);
   ResponseCurves curves;
   for (int c = 0; c < 3; ++c) {
     const Fit fit = fit_channel(bracket, samples, c);
-    if (fit.equations < kFewestEquations) refuse(bracket, "hardly a pixel is neither black nor white in two of them");
-    if (fit.rms_ev > kMostEv) refuse(bracket, "they disagree by " + fixed_text(fit.rms_ev, 2) + " EV on average");
+    if (fit.equations < kMinEquations) refuse(bracket, "hardly a pixel is neither black nor white in two of them");
+    if (fit.rms_ev > kMaxEv) refuse(bracket, "they disagree by " + fixed_text(fit.rms_ev, 2) + " EV on average");
     for (int code = 0; code < 256; ++code) {
       curves[c].push_back(code == 0 ? 0 : std::exp(srgb_log(code) + terms_of(code).dot(fit.unknowns)));
       if (code > 0 && curves[c][code] < curves[c][code - 1]) refuse(bracket, "light would fall where codes rise");

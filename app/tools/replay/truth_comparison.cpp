@@ -12,7 +12,7 @@ namespace catchlight::app {
 namespace {
 
 constexpr double kObjectChanges = 4.0;  // of 255, after a 9 x 9 box
-constexpr int kFewestPixels = 20;
+constexpr int kMinPixels = 20;
 
 cv::Mat boxed(const cv::Mat& image, int size) {
   cv::Mat wide, smooth;
@@ -49,7 +49,7 @@ double masked_percentile(const cv::Mat& values, const cv::Mat& region, double sh
 PictureError picture_error(const cv::Mat& ours, const cv::Mat& truth, int box, const cv::Mat& ssim_map, const cv::Mat& region) {
   PictureError error;
   error.pixels = cv::countNonZero(region);
-  if (error.pixels < kFewestPixels) return {};
+  if (error.pixels < kMinPixels) return {};
   const cv::Mat smooth = largest_difference(boxed(ours, box), boxed(truth, box));
   error.mean = masked_mean(smooth, region);
   error.p95 = masked_percentile(smooth, region, 0.95);

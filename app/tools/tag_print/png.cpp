@@ -48,11 +48,11 @@ void draw_text(cv::Mat1b& image, const TextMm& text, double pixels_per_mm) {
 }  // namespace
 
 std::string png_bytes(const Page& page, int pixels_per_m) {
-  constexpr double kLongestSidePx = 65535, kMostPixels = 1 << 30;
+  constexpr double kLongestSidePx = 65535, kMaxPixels = 1 << 30;
   const double pixels_per_mm = pixels_per_m / 1000.0;
   const auto pixels = [&](double mm) { return static_cast<int>(std::lround(mm * pixels_per_mm)); };
   const double width_px = page.width_mm * pixels_per_mm, height_px = page.height_mm * pixels_per_mm;
-  if (std::max(width_px, height_px) > kLongestSidePx || width_px * height_px > kMostPixels)
+  if (std::max(width_px, height_px) > kLongestSidePx || width_px * height_px > kMaxPixels)
     throw UsageError("the picture would have " + number_text(std::round(width_px)) + " x " + number_text(std::round(height_px)) +
                      " pixels; choose fewer --dpi, a smaller --paper, or PDF or SVG");
   cv::Mat1b image(pixels(page.height_mm), pixels(page.width_mm), std::uint8_t{255});

@@ -9,7 +9,7 @@
 namespace catchlight::app {
 namespace {
 
-constexpr int kMostAcross = 100;  ///< of a board's columns and rows
+constexpr int kMaxAcross = 100;  ///< of a board's columns and rows
 constexpr double kSmallest_m = 1e-4, kLargest_m = 100;
 
 }  // namespace
@@ -33,10 +33,10 @@ TagReach tag_reach(const std::string& family) {
 glm::ivec2 columns_and_rows(const std::string& text, const std::string& option) {
   const std::vector<std::string> fields = split(text, 'x');
   const auto number = [&](std::size_t i) { return integer_from_text(fields[i]).value_or(0); };
-  if (fields.size() == 2 && std::min(number(0), number(1)) >= 1 && std::max(number(0), number(1)) <= kMostAcross)
+  if (fields.size() == 2 && std::min(number(0), number(1)) >= 1 && std::max(number(0), number(1)) <= kMaxAcross)
     return {number(0), number(1)};
   throw UsageError(option + " is " + text + "; expected columns x rows, such as 4x3, each from 1 to " +
-                   std::to_string(kMostAcross));
+                   std::to_string(kMaxAcross));
 }
 
 void check_length(double length_m, const std::string& option) {

@@ -9,7 +9,7 @@ namespace catchlight::render {
 namespace {
 
 /// Of the bands between passes.
-constexpr int kMostRows = 4096;
+constexpr int kMaxRows = 4096;
 
 /// Where a pass leaves light that lay within `light`.
 PixelRect swept(const PixelRect& light, const StreakSamples& samples, const ColorTarget<1>& target) {
@@ -48,7 +48,7 @@ void StreakPass::use(const GlTexture& source, const StreakSamples& samples, int 
 
 void StreakPass::add(const GlTexture& source, const PixelRect& light, std::span<const std::vector<StreakSamples>> arms,
                      const ColorTarget<1>& target, const PixelRect& texels) {
-  const std::size_t at_once = static_cast<std::size_t>(std::max(1, kMostRows / target.height()));
+  const std::size_t at_once = static_cast<std::size_t>(std::max(1, kMaxRows / target.height()));
   for (; !arms.empty(); arms = arms.subspan(std::min(at_once, arms.size())))
     add_some(source, light, arms.first(std::min(at_once, arms.size())), target, texels);
 }
