@@ -147,9 +147,7 @@ Result measure_classic(const Image& picture) {
   double energy = 0, wanted = 0;
   for (std::size_t i = 0; i < glare.data.size(); ++i) energy += glare.data[i], wanted += reference.data[i];
   for (float& value : glare.data) value = static_cast<float>(value * wanted / energy);
-  return compared(glare, reference,
-                  {median(classic_ms), median(classic_ms), median(reference_ms),
-                   median(reference_ms)});
+  return compared(glare, reference, {median(classic_ms), median(classic_ms), median(reference_ms), median(reference_ms)});
 }
 
 class Table {

@@ -19,17 +19,21 @@ inline double linear_from_srgb(double code) {
 
 inline double srgb_from_linear(double linear) {
   const double magnitude = std::abs(linear);
-  return std::copysign(
-      magnitude <= 0.0031308 ? magnitude * 12.92 : 1.055 * std::pow(magnitude, 1.0 / 2.4) - 0.055, linear);
+  return std::copysign(magnitude <= 0.0031308 ? magnitude * 12.92 : 1.055 * std::pow(magnitude, 1.0 / 2.4) - 0.055, linear);
 }
 
-/// Light of a code. PQ (SMPTE ST 2084) and HLG (ARIB STD-B67, scene-referred) are scaled so that 203 cd/m2, reference white, is 1 (ITU-R BT.2408).
+/// Light of a code. PQ (SMPTE ST 2084) and HLG (ARIB STD-B67, scene-referred) are scaled so that 203 cd/m2, reference white, is 1
+/// (ITU-R BT.2408).
 inline double linear_from_code(TransferFunction transfer, double code) {
   switch (transfer) {
-    case TransferFunction::srgb: return linear_from_srgb(code);
-    case TransferFunction::linear: return code;
-    case TransferFunction::gamma22: return std::pow(std::max(code, 0.0), 2.2);
-    case TransferFunction::gamma28: return std::pow(std::max(code, 0.0), 2.8);
+    case TransferFunction::srgb:
+      return linear_from_srgb(code);
+    case TransferFunction::linear:
+      return code;
+    case TransferFunction::gamma22:
+      return std::pow(std::max(code, 0.0), 2.2);
+    case TransferFunction::gamma28:
+      return std::pow(std::max(code, 0.0), 2.8);
     case TransferFunction::pq: {
       const double root = std::pow(std::max(code, 0.0), 32.0 / 2523.0);
       return std::pow(std::max(root - 0.8359375, 0.0) / (18.8515625 - 18.6875 * root), 16384.0 / 2610.0) * 10000.0 / 203.0;

@@ -51,12 +51,12 @@ struct TrackRow {
   bool has_exposure = false;  ///< false: a bare pose, as poses.csv has them
   glm::dvec3 exposure{1.0};   ///< exposed linear value of white paper on the tag, per unit of albedo (docs/conventions.md)
   glm::dvec3 black{0.0};
-  double corner_sigma_px = 0;      ///< how uncertain the tag's corners are in the picture, per axis
-  double ambiguity = 0;            ///< probability that the other planar pose is the right one
-  Covariance2 blur_px2;  ///< of the tag's edges, by lens, motion and pixel; 0: not measured
-  double noise_codes = 0;          ///< on the tag, in 8-bit codes; 0: not measured
-  NoiseModel noise;                ///< of the whole footage, where it was recorded; all 0: not measured
-  LensBlurModel lens_blur;         ///< the last parts of blur_px2, taken apart
+  double corner_sigma_px = 0;  ///< how uncertain the tag's corners are in the picture, per axis
+  double ambiguity = 0;        ///< probability that the other planar pose is the right one
+  Covariance2 blur_px2;        ///< of the tag's edges, by lens, motion and pixel; 0: not measured
+  double noise_codes = 0;      ///< on the tag, in 8-bit codes; 0: not measured
+  NoiseModel noise;            ///< of the whole footage, where it was recorded; all 0: not measured
+  LensBlurModel lens_blur;     ///< the last parts of blur_px2, taken apart
 };
 
 }  // namespace catchlight

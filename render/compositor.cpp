@@ -263,7 +263,8 @@ Composite Compositor::Impl::render(const FrameView& view, const PlateReader& pla
   if (!virtual_rect.empty()) {
     const LensBlurPlan blur = plan_lens_blur(view, box.min_m, box.max_m);
     const int r = blur.reach_px(virtual_rect);
-    virtual_rect = intersect({virtual_rect.x - r, virtual_rect.y - r, virtual_rect.width + 2 * r, virtual_rect.height + 2 * r}, whole);
+    virtual_rect =
+        intersect({virtual_rect.x - r, virtual_rect.y - r, virtual_rect.width + 2 * r, virtual_rect.height + 2 * r}, whole);
     output_rect = virtual_rect;
     update_view(view);
     if (mirrors_receiver(view)) {

@@ -4,8 +4,8 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "render/mesh/mesh.hpp"
 #include "render/math/sh.hpp"
+#include "render/mesh/mesh.hpp"
 #include "render/probe/light_samples.hpp"
 #include "render/probe/prefilter.hpp"
 #include "render/transfer/transfer.hpp"

@@ -28,7 +28,8 @@ struct GlareSettings {
   double aperture_strength = 1;   ///< 1: as much as the aperture diffracts
 };
 
-/// `classic`: bloom and streaks of the whole picture as in render/passes/glare/classic_glare.hpp, instead of those of the object's highlights.
+/// `classic`: bloom and streaks of the whole picture as in render/passes/glare/classic_glare.hpp, instead of those of the
+/// object's highlights.
 enum class Look { camera, classic };
 
 struct CompositorSettings {

@@ -1,5 +1,5 @@
-// What C++ and GLSL must agree on: uniform blocks (std140; only vec4, ivec4 and mat4 members, so C++ lays them out alike; a test asks GL),
-// and the numbers of bindings, attributes and outputs.
+// What C++ and GLSL must agree on: uniform blocks (std140; only vec4, ivec4 and mat4 members, so C++ lays them out alike; a test
+// asks GL), and the numbers of bindings, attributes and outputs.
 #ifdef __cplusplus
 #pragma once
 #include <glm/glm.hpp>
@@ -79,8 +79,8 @@ using glm::vec4;
 UNIFORM_BLOCK(ViewUniforms, BINDING_VIEW) {
   mat4 clip_from_camera;
   mat4 camera_from_tag;
-  mat4 light_from_tag;      // rotation
-  mat4 plate_from_rec709;   // linear primaries
+  mat4 light_from_tag;     // rotation
+  mat4 plate_from_rec709;  // linear primaries
   vec4 camera_in_tag_m;
   vec4 exposure;
   vec4 radial_numerator;    // k1 k2 k3
@@ -90,59 +90,64 @@ UNIFORM_BLOCK(ViewUniforms, BINDING_VIEW) {
   vec4 frame;               // width, height, focal length in pixels
   vec4 probe_in_tag_m;      // where the probe was captured; w: how deep below its triangles a smoothed surface may start a ray
   ivec4 options;            // rays over a rough surface's lobe (0: the probe alone is mirrored), receiver mirrored
-} BLOCK_NAME(view);
+}
+BLOCK_NAME(view);
 
 // In a storage block (std430).
 struct SurfaceMaterial {
   vec4 base_color_metallic;
   vec4 emissive_roughness;
-  vec4 dielectric;          // f0, f90
+  vec4 dielectric;  // f0, f90
 };
 
 UNIFORM_BLOCK(LightUniforms, BINDING_LIGHT) {
-  ivec4 count;              // coefficients; whether lights are split off
+  ivec4 count;  // coefficients; whether lights are split off
   vec4 coefficients[MAX_LIGHT_COEFFICIENTS];
   vec4 split_off[MAX_LIGHT_COEFFICIENTS];  // the lights' part of them
-} BLOCK_NAME(light);
+}
+BLOCK_NAME(light);
 
 // Lights split off the probe.
 UNIFORM_BLOCK(LightSampleUniforms, BINDING_LIGHT_SAMPLES) {
-  ivec4 count;              // samples
-  vec4 sphere;              // around the object: middle in the tag frame, radius
-  vec4 lift_m;              // x: how far above a surface its shadows are looked up
+  ivec4 count;                         // samples
+  vec4 sphere;                         // around the object: middle in the tag frame, radius
+  vec4 lift_m;                         // x: how far above a surface its shadows are looked up
   vec4 to_light[MAX_LIGHT_SAMPLES];    // tag frame, length 1; w: spread (rad)
   vec4 right[MAX_LIGHT_SAMPLES];       // of the shadow map
   vec4 irradiance[MAX_LIGHT_SAMPLES];  // on a surface that faces the light; w: 1 where it makes highlights
-} BLOCK_NAME(light_samples);
+}
+BLOCK_NAME(light_samples);
 
 UNIFORM_BLOCK(ReceiverUniforms, BINDING_RECEIVER) {
-  vec4 min_max_m;           // tag x, y of the first and last points
-  vec4 lights_min_max_m;    // of the corners of the lights' texture
-  vec4 drawn_min_max_m;     // around both
+  vec4 min_max_m;         // tag x, y of the first and last points
+  vec4 lights_min_max_m;  // of the corners of the lights' texture
+  vec4 drawn_min_max_m;   // around both
   vec4 one_over_unshadowed;
-  vec4 unshadowed_rest;     // irradiance / pi of what is not split off
+  vec4 unshadowed_rest;  // irradiance / pi of what is not split off
   vec4 unshadowed_lights;
-  vec4 light_texels;        // width, height; 0 without lights
-  ivec4 points;             // columns, rows
-} BLOCK_NAME(receiver);
+  vec4 light_texels;  // width, height; 0 without lights
+  ivec4 points;       // columns, rows
+}
+BLOCK_NAME(receiver);
 
 // Rectangles are x, y, width, height in pixels of the frame.
 UNIFORM_BLOCK(CompositeUniforms, BINDING_COMPOSITE) {
   ivec4 output_rect;
-  ivec4 virtual_rect;       // what object and shadow textures hold
-  ivec4 plate_rect;         // what the plate texture holds
-  ivec4 modes;              // TransferFunction, codes end at 1, glare (1: on its grid, 2: by pixels), result is linear light
+  ivec4 virtual_rect;  // what object and shadow textures hold
+  ivec4 plate_rect;    // what the plate texture holds
+  ivec4 modes;         // TransferFunction, codes end at 1, glare (1: on its grid, 2: by pixels), result is linear light
   vec4 black;
-  vec4 receiver_light;      // of the receiver where it is not shadowed, exposed linear; 0: not known
-  vec4 changed_code;        // x: smallest difference of codes that counts
-  vec4 glare_from_frame;    // texels of the glare = pixel * xy + zw
-  ivec4 noise;              // added, seed, log2 of the pixels that share a colour (across, down)
-  vec4 noise_slope;         // variance = slope * light + floor
+  vec4 receiver_light;    // of the receiver where it is not shadowed, exposed linear; 0: not known
+  vec4 changed_code;      // x: smallest difference of codes that counts
+  vec4 glare_from_frame;  // texels of the glare = pixel * xy + zw
+  ivec4 noise;            // added, seed, log2 of the pixels that share a colour (across, down)
+  vec4 noise_slope;       // variance = slope * light + floor
   vec4 noise_floor;
-  vec4 vignetting;          // v1, v2, v3; w: 1 / the tag's
-  vec4 vignetting_at;       // middle (pixels), 1 / half diagonal squared
-  mat4 noise_mix;           // unit variance of RGB from two numbers a block and one a pixel
-} BLOCK_NAME(composite);
+  vec4 vignetting;     // v1, v2, v3; w: 1 / the tag's
+  vec4 vignetting_at;  // middle (pixels), 1 / half diagonal squared
+  mat4 noise_mix;      // unit variance of RGB from two numbers a block and one a pixel
+}
+BLOCK_NAME(composite);
 
 #ifdef __cplusplus
 #undef UNIFORM_BLOCK

@@ -17,10 +17,10 @@
 namespace catchlight::tracking {
 namespace {
 
-constexpr double kDetectedErrorPx = 2;                  ///< of the detector's corners in a smaller picture
+constexpr double kDetectedErrorPx = 2;               ///< of the detector's corners in a smaller picture
 constexpr double kMinErrorPx = 1, kMaxErrorPx = 16;  ///< of a prediction; more than that is for the detector to find
-constexpr double kFirstErrorPx = 6;                     ///< of the first prediction, which knows no motion
-constexpr double kMaxSigmaPx = 2;                      ///< a fit whose corners are less certain is none
+constexpr double kFirstErrorPx = 6;                  ///< of the first prediction, which knows no motion
+constexpr double kMaxSigmaPx = 2;                    ///< a fit whose corners are less certain is none
 
 void check_camera(const CameraModel& camera, const TagTarget& target, const TrackerOptions& options) {
   if (camera.width_px <= 0 || camera.height_px <= 0 || !(camera.fx_px > 0) || !(camera.fy_px > 0))

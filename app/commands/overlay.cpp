@@ -30,8 +30,7 @@ std::unique_ptr<FrameTrack> open_track(const Options& options, const Recording& 
   // Adapting exposure needs the poses of all that comes before, too.
   const FrameRange posed = tone_settings(recording.scene).enabled ? FrameRange{.end = range.end} : range;
   Report tracking;
-  const OverlayResult solved =
-      solve_track(*open_footage(recording), camera, recording.scene, posed, context.log, tracking);
+  const OverlayResult solved = solve_track(*open_footage(recording), camera, recording.scene, posed, context.log, tracking);
   report.stages = tracking.stages;
   return make_recorded_track(solved.rows, camera, recording.scene);
 }

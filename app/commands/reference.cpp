@@ -59,9 +59,7 @@ TrackedFrame tracked_frame(const Options& options, const Recording& recording, c
     rows = read_track_file(options.track_in);
   } else {
     Report report;
-    rows = solve_track(*open_footage(recording), camera, recording.scene, {options.frame, options.frame + 1}, log,
-                       report)
-               .rows;
+    rows = solve_track(*open_footage(recording), camera, recording.scene, {options.frame, options.frame + 1}, log, report).rows;
   }
   const auto track = make_recorded_track(std::move(rows), camera, recording.scene);
   const std::int64_t first = source->info().first_number;
@@ -87,7 +85,7 @@ void trace(const Options& options, Context& context) {
   const auto start = std::chrono::steady_clock::now();
   const TrackedFrame found = tracked_frame(options, recording, camera, context.log);
   const Image traced = trace_reference_frame(found.frame, found.row, camera, recording.scene, options.quality,
-                                                     context.log.warning_handler(), progress_handler(context.log, "reference"));
+                                             context.log.warning_handler(), progress_handler(context.log, "reference"));
   if (std::filesystem::path(output).extension() == ".exr")
     render::write_exr(output, {{"", &traced, {"R", "G", "B"}}});
   else

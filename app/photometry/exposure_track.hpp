@@ -19,7 +19,7 @@ namespace catchlight::app {
 struct ExposureWitness {
   double time_s = 0;
   TagReading own;
-  BundledTag tag;                   ///< that was read
+  BundledTag tag;                             ///< that was read
   std::optional<tracking::PlaneLight> plane;  ///< empty where no tag was read
   bool knows(int channel) const { return own.sources[static_cast<std::size_t>(channel)] == ExposureSource::tag; }
 };

@@ -84,7 +84,7 @@ double median_or_0(std::vector<double> values) {
 }  // namespace
 
 Covariance2 motion_covariance(const CameraModel& camera, const RigidTransform& camera_from_tag, const TagMotion& motion,
-                                        double tag_size_m) {
+                              double tag_size_m) {
   Covariance2 sum;
   const double half = tag_size_m / 2;
   constexpr int kPoints = 4;

@@ -13,7 +13,7 @@ namespace catchlight::app {
 /// Mean over the tag of v v^T / 12, v the way (pixels) its points go from frame to frame: the covariance that a shutter open all
 /// the time would add.
 Covariance2 motion_covariance(const CameraModel& camera, const RigidTransform& camera_from_tag, const TagMotion& motion,
-                                        double tag_size_m);
+                              double tag_size_m);
 
 /// Fills in `lens_blur` of rows in order, from their poses and blur.
 /// Motion: half the way from the frame before to the frame after, or all of it from one of them.

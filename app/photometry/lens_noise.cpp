@@ -21,14 +21,14 @@ namespace catchlight::app {
 namespace {
 
 constexpr double kReachSigmas = 3, kReachPx = 1;        ///< how far an edge's light reaches: blur, and the chroma's own filter
-constexpr std::size_t kMinBlocks = 8;                ///< in a cell
-constexpr double kMaxOfMedian = 2.5;                   ///< a cell with more variance is not flat
+constexpr std::size_t kMinBlocks = 8;                   ///< in a cell
+constexpr double kMaxOfMedian = 2.5;                    ///< a cell with more variance is not flat
 constexpr double kDarkest = 0.004, kBrightest = 0.985;  ///< codes beyond are clipped
-constexpr double kMaxPixels = 100'000;                 ///< looked at in a frame
+constexpr double kMaxPixels = 100'000;                  ///< looked at in a frame
 constexpr double kNoiselessLight = 0.03;                ///< the darkest that may be without noise
 constexpr int kPaperCells = 4;                          ///< of the sheet around the print
 constexpr double kPaperLikeness = 0.15;                 ///< the sheet's light differs by no more from the print's white
-constexpr double kMaxOfFine = 3;                       ///< grain smeared by a codec has no more; else it is texture
+constexpr double kMaxOfFine = 3;                        ///< grain smeared by a codec has no more; else it is texture
 constexpr double kWeightFloor = 0.02;                   ///< variance grows about as light + this, so that its own error does too
 
 /// What is left of values at places after their best plane.
@@ -144,8 +144,7 @@ std::vector<CellBlocks> cells_of(const CodePlanes& planes, const CameraModel& ca
       const auto place = tracking::ideal_pixel(camera, at);
       const auto point = place ? view.at(place->ideal_px) : std::nullopt;
       if (!point) continue;
-      const Covariance2 reach =
-          tracking::in_cells({reach_px2, 0, reach_px2}, point->cell_per_px * place->ideal_per_seen);
+      const Covariance2 reach = tracking::in_cells({reach_px2, 0, reach_px2}, point->cell_per_px * place->ideal_per_seen);
       using enum tracking::TagPattern::Neighbourhood;
       if (pattern.around(point->cell, {std::sqrt(reach.xx), std::sqrt(reach.yy)}) != plateau) continue;
       const glm::ivec2 cell = glm::ivec2(glm::floor(point->cell)) + margin;

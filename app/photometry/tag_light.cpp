@@ -29,8 +29,7 @@ std::optional<TagLight::Reading> TagLight::read(const Frame& frame, const TrackR
   return clipped;
 }
 
-tracking::PlaneLight TagLight::plane(const Frame& frame, const RigidTransform& camera_from_tag,
-                                     const BundledTag& tag) const {
+tracking::PlaneLight TagLight::plane(const Frame& frame, const RigidTransform& camera_from_tag, const BundledTag& tag) const {
   const RigidTransform camera_from_this = camera_from_tag * tag.tag_from_this;
   const PixelRect region = tracking::plane_region(camera_, camera_from_this, alone(tag));
   if (region.empty()) return {};

@@ -202,8 +202,7 @@ cv::Mat shown_codes(const Frame& frame, Composite& composite, const PixelRect& r
 
 }  // namespace
 
-void draw_debug(const Frame& frame, const TrackRow& row, const CameraModel& camera, double tag_size_m,
-                Composite& composite) {
+void draw_debug(const Frame& frame, const TrackRow& row, const CameraModel& camera, double tag_size_m, Composite& composite) {
   Sketch sketch{std::min(frame.width_px(), frame.height_px()) / 480.0, {}, 0, {}};
   if (row.found) add_tag(sketch, camera, row.camera_from_tag, tag_size_m);
   add_labels(sketch, row, frame.width_px());

@@ -13,7 +13,6 @@ namespace catchlight::app {
 /// side of its axes (x red, y green, z blue), all through the lens; and frame number, state, residual and ambiguity as text. A
 /// frame without a pose gets the text alone. Lines and text are as large beside the picture at every resolution. Pixels that
 /// nothing is drawn on stay as they are.
-void draw_debug(const Frame& frame, const TrackRow& row, const CameraModel& camera, double tag_size_m,
-                Composite& composite);
+void draw_debug(const Frame& frame, const TrackRow& row, const CameraModel& camera, double tag_size_m, Composite& composite);
 
 }  // namespace catchlight::app

@@ -126,8 +126,12 @@ struct PathTrack::Impl {
 
 PathTrack::PathTrack(const CameraModel& camera, const SceneSettings& scene) {
   const TagTarget target = scene.tag.target();
-  impl_ = std::make_unique<Impl>(Impl{camera, target, tracking::RecordedPath(camera, target, scene.tag.tracker_options()),
-                                      ExposurePath(camera, scene), NoiseMeter(camera, target), {}});
+  impl_ = std::make_unique<Impl>(Impl{camera,
+                                      target,
+                                      tracking::RecordedPath(camera, target, scene.tag.tracker_options()),
+                                      ExposurePath(camera, scene),
+                                      NoiseMeter(camera, target),
+                                      {}});
 }
 
 PathTrack::~PathTrack() = default;

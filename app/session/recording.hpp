@@ -37,7 +37,8 @@ struct Recording {
 /// missing and how to supply it; UsageError: overrides that cannot be.
 Recording open_recording(const std::string& location, const RecordingOverrides& overrides = {});
 
-/// The footage, read with the camera's response where the scene names one. Throws Error as MediaSource::open and load_response do.
+/// The footage, read with the camera's response where the scene names one. Throws Error as MediaSource::open and load_response
+/// do.
 std::unique_ptr<MediaSource> open_footage(const Recording& recording, const WarningHandler& warn = {});
 
 /// The camera of a recording whose footage turned out to be of this size. Throws Error naming both sizes where the camera file

@@ -70,7 +70,7 @@ struct SceneSettings {
   struct Exposure {
     std::string mode = "match";
     double ev = 0;
-    std::string response = "footage";  ///< as app/response/response_file.hpp says
+    std::string response = "footage";                 ///< as app/response/response_file.hpp says
     double key = 0.18;                                ///< of "auto", as the next
     double adapt_bright_s = 0.4, adapt_dark_s = 1.6;  ///< time constants
   } exposure;

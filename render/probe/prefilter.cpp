@@ -1,9 +1,9 @@
 // Karis, "Real Shading in Unreal Engine 4", 2013: the split sum, with n = v = r for the filter.
+#include "render/probe/prefilter.hpp"
 #include "catchlight/util/parallel.hpp"
 #include "render/math/hemisphere_rays.hpp"
 #include "render/probe/cube_map.hpp"
 #include "render/probe/light_tree.hpp"
-#include "render/probe/prefilter.hpp"
 
 #include <algorithm>
 #include <bit>

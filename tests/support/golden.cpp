@@ -39,7 +39,9 @@ bool within(const ImageDifference& difference, const GoldenTolerance& tolerance)
   const std::string folder = std::string(CATCHLIGHT_BINARY_DIR) + "/golden";
   std::filesystem::create_directories(folder);
   const std::string actual_path = folder + "/" + name + ".actual.png", difference_path = folder + "/" + name + ".difference.png";
-  const std::string bless = "\nlook at them, and if the new picture is right: CATCHLIGHT_BLESS=1 build/release/tests/render/tests_render_gl --gtest_filter=GoldenGl.*";
+  const std::string bless =
+      "\nlook at them, and if the new picture is right: CATCHLIGHT_BLESS=1 build/release/tests/render/tests_render_gl "
+      "--gtest_filter=GoldenGl.*";
 
   const cv::Mat golden = cv::imread(golden_path);
   if (golden.empty() || golden.size() != picture.size()) {

@@ -1,4 +1,5 @@
 // Recorded footage, rendered: what later frames tell about earlier ones.
+#include "tracking/shot_tracker.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/rigid_transform.hpp"
@@ -6,7 +7,6 @@
 #include "catchlight/track.hpp"
 #include "tests/support/pose_error.hpp"
 #include "tests/support/synthetic_tag.hpp"
-#include "tracking/shot_tracker.hpp"
 
 #include <gtest/gtest.h>
 

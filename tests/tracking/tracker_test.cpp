@@ -1,4 +1,5 @@
 // The tracker as its users see it: states, coasting, re-entry, two copies of one tag, and what it refuses.
+#include "tracking/tracker.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/tag.hpp"
@@ -6,7 +7,6 @@
 #include "tests/support/pose_error.hpp"
 #include "tests/support/synthetic_tag.hpp"
 #include "tracking/observation.hpp"
-#include "tracking/tracker.hpp"
 #include "tracking/tracker_options.hpp"
 
 #include <gmock/gmock.h>

@@ -16,7 +16,7 @@ constexpr std::size_t kMinPixels = 40;
 constexpr std::size_t kMaxPixels = 2200, kMaxCoarsePixels = 1000;
 constexpr double kCoarseCellPx = 3;                 ///< blocks leave cells at least this large: smaller ones run together
 constexpr double kLossSigmas = 4;                   ///< the loss keeps 93 % of least squares' efficiency on Gaussian noise
-constexpr double kMinNoiseCodes = 0.35;           ///< rounding alone leaves 0.29
+constexpr double kMinNoiseCodes = 0.35;             ///< rounding alone leaves 0.29
 constexpr double kNearPx = 0.1, kSettledPx = 0.01;  ///< Gauss-Newton's next step would be a tenth of that
 /// What a frame's own fit may say against the usual: blur changes by a few px², light across a tag by a third.
 constexpr double kBlurPrior_px2 = 2, kLightPrior = 0.3;

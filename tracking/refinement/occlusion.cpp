@@ -9,9 +9,9 @@ namespace catchlight::tracking {
 namespace {
 
 constexpr double kFittingWeight = 0.4;  ///< mean weight of a cell's pixels below which it is covered
-constexpr double kMinPixels = 5;     ///< of a cell, to tell
-constexpr int kMinCells = 3;         ///< smaller faults are for the robust loss
-constexpr double kMinShare = 0.45;    ///< of the pixels, that have to stay: another print would match in as much as its border
+constexpr double kMinPixels = 5;        ///< of a cell, to tell
+constexpr int kMinCells = 3;            ///< smaller faults are for the robust loss
+constexpr double kMinShare = 0.45;      ///< of the pixels, that have to stay: another print would match in as much as its border
 constexpr std::size_t kMinOfPart = 40;
 
 /// The cells of one part and the ring around them.
@@ -57,9 +57,7 @@ class CellMap {
     return static_cast<std::size_t>(static_cast<int>(place.y) * side_ + static_cast<int>(place.x));
   }
 
-  bool is_covered(std::size_t cell) const {
-    return count_[cell] >= kMinPixels && weight_[cell] < kFittingWeight * count_[cell];
-  }
+  bool is_covered(std::size_t cell) const { return count_[cell] >= kMinPixels && weight_[cell] < kFittingWeight * count_[cell]; }
 
   TagView view_;
   int margin_, side_;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kPaperCells = 3;        ///< white around the print, as far as any blur reaches
 constexpr double kReachSigmas = 3.5;  ///< what lies beyond adds less than 3e-4
-constexpr int kMaxLines = 16;        ///< within reach along one axis; a blur that wide leaves nothing to see
+constexpr int kMaxLines = 16;         ///< within reach along one axis; a blur that wide leaves nothing to see
 
 /// The grid lines of one axis that are within reach.
 struct Lines {

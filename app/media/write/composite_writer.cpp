@@ -141,8 +141,7 @@ PixelRect blocks_of(const PixelLayout& layout, const PixelRect& rect, int width_
   return intersect({x, y, right - x, bottom - y}, {0, 0, width_px, height_px});
 }
 
-void write_composite(AVFrame& picture, const PixelLayout& layout, const Composite& composite,
-                     const Plate& plate) {
+void write_composite(AVFrame& picture, const PixelLayout& layout, const Composite& composite, const Plate& plate) {
   const CompositeWriter writer(picture, layout, composite);
   if (layout.is_float) {
     writer.write_values();

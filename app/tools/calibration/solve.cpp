@@ -15,9 +15,9 @@ namespace {
 
 constexpr std::size_t kMinViews = 4;
 constexpr double kOutlierRatio = 3;
-constexpr double kNegligiblePx = 0.05;      ///< views this good are no outliers, however good the others are
+constexpr double kNegligiblePx = 0.05;    ///< views this good are no outliers, however good the others are
 constexpr double kMinPerspective = 0.02;  ///< nearest point over farthest, less 1, of the most tilted view
-constexpr double kWorstFocal = 0.05;        ///< standard deviation over the focal length
+constexpr double kWorstFocal = 0.05;      ///< standard deviation over the focal length
 constexpr double kRadToDeg = 180 / std::numbers::pi;
 
 struct Fit {

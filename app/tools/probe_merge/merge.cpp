@@ -132,8 +132,8 @@ void check_circle(const BallCircle& circle, const Image& image) {
                      std::to_string(image.height) + " pixels, or is smaller than 8 pixels in radius");
 }
 
-BallView ball_in(const MergeRequest& request, std::size_t view, const Image& image,
-                 const std::optional<CameraModel>& camera, Log& log) {
+BallView ball_in(const MergeRequest& request, std::size_t view, const Image& image, const std::optional<CameraModel>& camera,
+                 Log& log) {
   if (!request.balls.empty()) check_circle(request.balls[view], image);
   const std::vector<glm::dvec2> outline =
       request.balls.empty() ? find_ball_outline(image, camera, view_name(request, view)) : outline_of(request.balls[view]);

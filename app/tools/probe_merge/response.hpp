@@ -26,7 +26,7 @@ ResponseCurves recover_response(const Bracket& bracket);
 
 /// Scene-linear radiance of a view, with what is not known of it.
 struct RadianceMap {
-  Image image;                ///< 3 channels, finite, >= 0
+  Image image;                        ///< 3 channels, finite, >= 0
   std::vector<std::uint8_t> clipped;  ///< per pixel: at least as bright as this, in some channel
   double clipped_share = 0;           ///< of the pixels
 };

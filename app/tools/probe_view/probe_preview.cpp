@@ -178,10 +178,10 @@ cv::Mat probe_preview(const render::Probe& probe, double yaw_deg, double ev, int
   const cv::Mat matte =
       ball(painter, side, [&](const glm::dvec3& normal) { return painter.matte(painter.probe_from_tag(normal)); });
   cv::Mat balls, picture;
-  cv::hconcat(std::vector<cv::Mat>{captioned(mirror, "mirror ball, seen from tag -y"),
-                                   captioned(matte, "matte ball, seen from tag -y"),
-                                   captioned(plan(painter, side), "from above: the light around the tag")},
-              balls);
+  cv::hconcat(
+      std::vector<cv::Mat>{captioned(mirror, "mirror ball, seen from tag -y"), captioned(matte, "matte ball, seen from tag -y"),
+                           captioned(plan(painter, side), "from above: the light around the tag")},
+      balls);
   cv::vconcat(
       captioned(panorama(painter, 3 * side), "what is around the tag; in the middle, what the camera's back is turned to"), balls,
       picture);

@@ -19,8 +19,8 @@ struct PoseComparison {
   int flips = 0;  ///< frames off by more than 8 degrees: the other planar pose
 };
 
-/// Frames are paired by number. Corners are those of a tag of `tag_size_m`, projected without distortion. Frames with some of them
-/// in the picture count neither way.
+/// Frames are paired by number. Corners are those of a tag of `tag_size_m`, projected without distortion. Frames with some of
+/// them in the picture count neither way.
 PoseComparison compare_poses(const std::vector<TrackRow>& ours, const std::vector<TrackRow>& truth, const CameraModel& camera,
                              double tag_size_m);
 

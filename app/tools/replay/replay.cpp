@@ -23,7 +23,7 @@ cv::Mat bgr_of(const Frame& frame) {
   const Plate plate = frame.rgb({0, 0, frame.width_px(), frame.height_px()});
   const int depth = plate.format == Plate::Format::rgb_u8    ? CV_8UC3
                     : plate.format == Plate::Format::rgb_u16 ? CV_16UC3
-                                                                     : CV_32FC3;
+                                                             : CV_32FC3;
   const double to_8_bit = depth == CV_8UC3 ? 1.0 : depth == CV_16UC3 ? 1.0 / 257 : 255.0;
   const cv::Mat codes(plate.rect.height, plate.rect.width, depth, const_cast<std::byte*>(plate.pixels.data()));
   cv::Mat bgr;

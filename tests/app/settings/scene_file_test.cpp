@@ -1,5 +1,5 @@
-#include "app/settings/parameters.hpp"
 #include "app/settings/scene_file.hpp"
+#include "app/settings/parameters.hpp"
 #include "catchlight/error.hpp"
 #include "tests/support/scene_text.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -36,7 +36,7 @@ id = 2
 family = "tag16h5"
 size_m = 0.05
 )")
-                                         .tag.target();
+                               .tag.target();
   ASSERT_EQ(target.bundle.size(), 2u);
   EXPECT_EQ(static_cast<const PrintedTag&>(target.bundle[0]), (PrintedTag{"tag25h9", 1, 0.14}));
   EXPECT_EQ(static_cast<const PrintedTag&>(target.bundle[1]), (PrintedTag{"tag16h5", 2, 0.05}));

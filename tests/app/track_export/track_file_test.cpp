@@ -135,9 +135,9 @@ TEST(TrackFile, KnownPosesReadWithoutTheOtherColumns) {
 }
 
 TEST(TrackFile, OneOfTheFirstReleasesHasItsExposureAndNoNoiseOrBlur) {
-  const std::vector<TrackRow> rows =
-      read("frame,time_s,found,r00,r01,r02,r10,r11,r12,r20,r21,r22,tx,ty,tz,state,exposure_r,exposure_g,exposure_b,black_r,"
-           "black_g,black_b\n3,0.125,1,1,0,0,0,1,0,0,0,1,0,0,1,tracking,0.5,0.6,0.7,0.01,0.02,0.03\n");
+  const std::vector<TrackRow> rows = read(
+      "frame,time_s,found,r00,r01,r02,r10,r11,r12,r20,r21,r22,tx,ty,tz,state,exposure_r,exposure_g,exposure_b,black_r,"
+      "black_g,black_b\n3,0.125,1,1,0,0,0,1,0,0,0,1,0,0,1,tracking,0.5,0.6,0.7,0.01,0.02,0.03\n");
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_TRUE(rows[0].has_exposure);
   EXPECT_EQ(rows[0].exposure, glm::dvec3(0.5, 0.6, 0.7));

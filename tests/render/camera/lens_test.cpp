@@ -1,8 +1,8 @@
 // Camera frame to clip space, against OpenCV's own projection.
+#include "render/camera/lens.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/pixel_rect.hpp"
 #include "catchlight/rigid_transform.hpp"
-#include "render/camera/lens.hpp"
 
 #include <gtest/gtest.h>
 

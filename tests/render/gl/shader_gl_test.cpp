@@ -66,10 +66,10 @@ TEST_F(ShaderGl, UniformBlocksLieAsCppLaysThem) {
       receiver, "ReceiverUniforms", sizeof(ReceiverUniforms),
       {MEMBER(ReceiverUniforms, min_max_m), MEMBER(ReceiverUniforms, one_over_unshadowed), MEMBER(ReceiverUniforms, points)});
   const GlProgram composite = make_program({.vertex = "fullscreen.vert", .fragment = "composite.frag", .captured = {}}, "");
-  expect_layout(composite, "CompositeUniforms", sizeof(CompositeUniforms),
-                {MEMBER(CompositeUniforms, output_rect), MEMBER(CompositeUniforms, virtual_rect),
-                 MEMBER(CompositeUniforms, modes), MEMBER(CompositeUniforms, black), MEMBER(CompositeUniforms, changed_code),
-                 MEMBER(CompositeUniforms, glare_from_frame)});
+  expect_layout(
+      composite, "CompositeUniforms", sizeof(CompositeUniforms),
+      {MEMBER(CompositeUniforms, output_rect), MEMBER(CompositeUniforms, virtual_rect), MEMBER(CompositeUniforms, modes),
+       MEMBER(CompositeUniforms, black), MEMBER(CompositeUniforms, changed_code), MEMBER(CompositeUniforms, glare_from_frame)});
 }
 
 /// A folder with all embedded shaders, for one test.

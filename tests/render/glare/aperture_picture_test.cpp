@@ -1,7 +1,7 @@
 // Apertures: what the program draws, and what it accepts of the user's.
+#include "render/glare/aperture_picture.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/image.hpp"
-#include "render/glare/aperture_picture.hpp"
 #include "render/glare/aperture_shapes.hpp"
 #include "render/image/image_io.hpp"
 #include "tests/support/test_files.hpp"

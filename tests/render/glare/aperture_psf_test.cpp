@@ -1,7 +1,7 @@
 // Diffraction against the closed forms of optics, and what must hold of any aperture's.
+#include "render/glare/aperture_psf.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/image.hpp"
-#include "render/glare/aperture_psf.hpp"
 #include "render/glare/aperture_shapes.hpp"
 
 #include <gtest/gtest.h>

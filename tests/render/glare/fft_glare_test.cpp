@@ -1,9 +1,9 @@
 // The glare of an aperture on the CPU: what of a frame glares, and how it is scaled.
+#include "render/glare/fft_glare.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/image.hpp"
 #include "catchlight/pixel_rect.hpp"
-#include "render/glare/fft_glare.hpp"
 #include "render/glare/glare_kernel.hpp"
 #include "render/settings.hpp"
 

@@ -1,8 +1,8 @@
 // The arithmetic under the glare passes; no GL.
+#include "render/glare/glare_plan.hpp"
 #include "catchlight/image.hpp"
 #include "catchlight/pixel_rect.hpp"
 #include "render/glare/glare_kernel.hpp"
-#include "render/glare/glare_plan.hpp"
 #include "render/passes/glare/glare_tiles.hpp"
 #include "render/settings.hpp"
 

@@ -1,6 +1,6 @@
 // The comparator must see what an eye would, and each figure what the others miss.
-#include "catchlight/error.hpp"
 #include "render/image/image_difference.hpp"
+#include "catchlight/error.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
+#include "render/image/image_io.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/image.hpp"
-#include "render/image/image_io.hpp"
 #include "tests/support/test_files.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Convolution by FFT against the sum that it stands for, and what must hold of any convolution.
+#include "render/math/fft_convolution.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/image.hpp"
-#include "render/math/fft_convolution.hpp"
 
 #include <gtest/gtest.h>
 

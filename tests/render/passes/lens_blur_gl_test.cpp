@@ -179,8 +179,8 @@ TEST_F(LensBlurGl, BlurAtTheFramesEdgeAndOfExtremeLightStaysFinite) {
 }
 
 // What an affine field leaves out is of second order. At the plane's edge, half = 50 px from its middle, at f = 600 px and depth
-// 0.6 m: of the turn, turn * half^2 / f = 0.01 * 50^2 / 600 = 0.042 px; of the shift, f / z * shift * d^2 with d = 0.05 * 0.6 / 0.6
-// its share of depth, 1000 * 0.0045 * 0.0025 = 0.011 px. Together 0.053 px, 2 % of the 2.7 px that the longest way has.
+// 0.6 m: of the turn, turn * half^2 / f = 0.01 * 50^2 / 600 = 0.042 px; of the shift, f / z * shift * d^2 with d = 0.05 * 0.6 /
+// 0.6 its share of depth, 1000 * 0.0045 * 0.0025 = 0.011 px. Together 0.053 px, 2 % of the 2.7 px that the longest way has.
 TEST(MotionField, IsTheWayOfEveryPointOfAPlaneToAFiftiethOfTheLongest) {
   CameraModel camera{640, 480, 600, 600, 319.5, 239.5, {-0.2, 0.05}};
   const RigidTransform pose{glm::dmat3(1, 0, 0, 0, -0.8, -0.6, 0, 0.6, -0.8), {0.02, -0.03, 0.6}};

@@ -1,6 +1,6 @@
+#include "render/probe/prefilter.hpp"
 #include "catchlight/image.hpp"
 #include "render/probe/cube_map.hpp"
-#include "render/probe/prefilter.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-#include "catchlight/image.hpp"
 #include "render/probe/probe_split.hpp"
+#include "catchlight/image.hpp"
 
 #include <gtest/gtest.h>
 

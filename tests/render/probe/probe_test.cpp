@@ -1,6 +1,6 @@
+#include "render/probe/probe.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/image.hpp"
-#include "render/probe/probe.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Adaptation: the same curve at every frame rate, two speeds, no pumping.
-#include "catchlight/tone_curve.hpp"
 #include "render/tone/tone_adaptation.hpp"
+#include "catchlight/tone_curve.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The photographic operator and what it is found from, in closed form.
-#include "catchlight/color.hpp"
 #include "catchlight/tone_curve.hpp"
+#include "catchlight/color.hpp"
 #include "render/tone/tone_curve.hpp"
 
 #include <gtest/gtest.h>

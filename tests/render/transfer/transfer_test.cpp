@@ -1,6 +1,6 @@
+#include "render/transfer/transfer.hpp"
 #include "catchlight/error.hpp"
 #include "render/math/sh.hpp"
-#include "render/transfer/transfer.hpp"
 #include "tests/support/shapes.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Camera files as OpenCV and ROS write them, and every way they can be wrong.
+#include "tracking/camera/camera_file.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/error.hpp"
-#include "tracking/camera/camera_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // The lens model against OpenCV's own, which shares no code with it, and against itself as an inverse pair.
+#include "tracking/camera/lens.hpp"
 #include "catchlight/camera.hpp"
 #include "tests/support/synthetic_tag.hpp"
-#include "tracking/camera/lens.hpp"
 
 #include <gtest/gtest.h>
 

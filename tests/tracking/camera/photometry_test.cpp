@@ -1,8 +1,8 @@
 // The tag's white and black as measured, against those it was rendered with.
+#include "tracking/camera/photometry.hpp"
 #include "catchlight/pixel_rect.hpp"
 #include "catchlight/track.hpp"
 #include "tests/support/synthetic_tag.hpp"
-#include "tracking/camera/photometry.hpp"
 #include "tracking/detection/families.hpp"
 
 #include <gtest/gtest.h>

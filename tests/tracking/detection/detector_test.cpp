@@ -1,7 +1,7 @@
 // Conventions of the detector: which corner, which pixel centre, in which order.
+#include "tracking/detection/detector.hpp"
 #include "catchlight/error.hpp"
 #include "tests/support/synthetic_tag.hpp"
-#include "tracking/detection/detector.hpp"
 #include "tracking/pose/planar_pose.hpp"
 
 #include <gtest/gtest.h>

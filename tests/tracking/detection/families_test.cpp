@@ -1,6 +1,6 @@
 // The layout of every family against the library's own drawing of it.
-#include "catchlight/error.hpp"
 #include "tracking/detection/families.hpp"
+#include "catchlight/error.hpp"
 
 #include <apriltag/apriltag.h>
 #include <gmock/gmock.h>

@@ -1,9 +1,9 @@
 // The pose that a flat target is taken for, against closed forms.
+#include "tracking/pose/mirrored_pose.hpp"
 #include "catchlight/rigid_transform.hpp"
 #include "catchlight/tag.hpp"
 #include "tests/support/pose_error.hpp"
 #include "tests/support/synthetic_tag.hpp"
-#include "tracking/pose/mirrored_pose.hpp"
 
 #include <gtest/gtest.h>
 

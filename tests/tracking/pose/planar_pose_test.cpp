@@ -1,9 +1,9 @@
 // Both poses of a square from exact and from disturbed corners; corners come from cv::projectPoints.
+#include "tracking/pose/planar_pose.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/rigid_transform.hpp"
 #include "tests/support/pose_error.hpp"
 #include "tests/support/synthetic_tag.hpp"
-#include "tracking/pose/planar_pose.hpp"
 
 #include <gtest/gtest.h>
 

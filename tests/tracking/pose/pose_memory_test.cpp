@@ -1,11 +1,11 @@
 // The choice between two planar poses, on paths whose truth is known.
+#include "tracking/pose/pose_memory.hpp"
 #include "catchlight/rigid_transform.hpp"
 #include "tests/support/pose_error.hpp"
 #include "tests/support/synthetic_tag.hpp"
 #include "tracking/observation.hpp"
 #include "tracking/pose/corner_noise.hpp"
 #include "tracking/pose/planar_pose.hpp"
-#include "tracking/pose/pose_memory.hpp"
 
 #include <gtest/gtest.h>
 

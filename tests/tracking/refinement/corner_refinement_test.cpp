@@ -1,4 +1,5 @@
 // Refined corners against the exact corners of rendered tags.
+#include "tracking/refinement/corner_refinement.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/color.hpp"
 #include "catchlight/luma_view.hpp"
@@ -6,7 +7,6 @@
 #include "tests/support/synthetic_tag.hpp"
 #include "tracking/detection/detector.hpp"
 #include "tracking/detection/families.hpp"
-#include "tracking/refinement/corner_refinement.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 // The fit of the whole pattern: how exact it is, and what it says about light, blur and its own worth.
+#include "tracking/refinement/direct_refinement.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/color.hpp"
 #include "catchlight/luma_view.hpp"
@@ -8,7 +9,6 @@
 #include "tests/support/synthetic_tag.hpp"
 #include "tracking/detection/families.hpp"
 #include "tracking/pose/pose_covariance.hpp"
-#include "tracking/refinement/direct_refinement.hpp"
 
 #include <gtest/gtest.h>
 

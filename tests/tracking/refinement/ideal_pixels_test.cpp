@@ -1,8 +1,8 @@
 // The remembered pixels of a lens against the lens itself, and their slopes against finite differences.
+#include "tracking/refinement/ideal_pixels.hpp"
 #include "catchlight/camera.hpp"
 #include "tests/support/synthetic_tag.hpp"
 #include "tracking/camera/lens.hpp"
-#include "tracking/refinement/ideal_pixels.hpp"
 
 #include <gtest/gtest.h>
 

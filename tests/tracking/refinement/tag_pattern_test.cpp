@@ -1,6 +1,6 @@
 // The blurred print against a convolution by brute force of the AprilTag library's own drawing.
-#include "catchlight/track.hpp"
 #include "tracking/refinement/tag_pattern.hpp"
+#include "catchlight/track.hpp"
 
 #include <apriltag/apriltag.h>
 #include <gtest/gtest.h>

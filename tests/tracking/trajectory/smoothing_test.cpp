@@ -1,9 +1,9 @@
 // Smoothing on paths whose truth is known: nothing where measurements are sharp, averaging where the camera rests, no harm
 // between.
+#include "tracking/trajectory/smoothing.hpp"
 #include "catchlight/rigid_transform.hpp"
 #include "tests/tracking/trajectory/trajectory_fixture.hpp"
 #include "tracking/observation.hpp"
-#include "tracking/trajectory/smoothing.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Whole paths: which frames get a pose, from where, and what stretches owe each other.
+#include "tracking/trajectory/solver.hpp"
 #include "catchlight/track.hpp"
 #include "tests/tracking/trajectory/trajectory_fixture.hpp"
-#include "tracking/trajectory/solver.hpp"
 
 #include <gtest/gtest.h>
 

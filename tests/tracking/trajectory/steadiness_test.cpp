@@ -1,8 +1,8 @@
 // Deviations from steady motion, on motion whose deviation is known.
+#include "tracking/trajectory/steadiness.hpp"
 #include "catchlight/rigid_transform.hpp"
 #include "tests/tracking/trajectory/trajectory_fixture.hpp"
 #include "tracking/observation.hpp"
-#include "tracking/trajectory/steadiness.hpp"
 
 #include <gtest/gtest.h>
 
