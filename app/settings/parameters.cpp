@@ -54,17 +54,18 @@ bool in_range(double value, double min, double max) {
 struct Store {
   SceneSettings& settings;
   const ParameterValue& value;
+  std::size_t index;
 
   bool operator()(const RealKind& kind) const {
     const std::optional<double> real = real_of(value);
     if (!real || !in_range(*real, kind.min, kind.max)) return false;
-    kind.access(settings) = *real;
+    kind.access(settings, index) = *real;
     return true;
   }
   bool operator()(const IntegerKind& kind) const {
     const auto* integer = std::get_if<std::int64_t>(&value);
     if (!integer || *integer < kind.min || *integer > kind.max) return false;
-    kind.access(settings) = static_cast<int>(*integer);
+    kind.access(settings, index) = static_cast<int>(*integer);
     return true;
   }
   bool operator()(const FlagKind& kind) const { return store_as<bool>(kind.access); }
@@ -82,7 +83,7 @@ struct Store {
     const auto* text = std::get_if<std::string>(&value);
     const auto* flag = std::get_if<bool>(&value);
     if (!flag && !(text && *text == "auto")) return false;
-    kind.access(settings) = !flag ? Switch::automatic : *flag ? Switch::on : Switch::off;
+    kind.access(settings, index) = !flag ? Switch::automatic : *flag ? Switch::on : Switch::off;
     return true;
   }
   bool operator()(const VectorKind& kind) const {
@@ -94,9 +95,9 @@ struct Store {
 
  private:
   template <class T>
-  bool store_as(Access<T> access) const {
+  bool store_as(const Access<T>& access) const {
     const T* held = std::get_if<T>(&value);
-    if (held) access(settings) = *held;
+    if (held) access(settings, index) = *held;
     return held != nullptr;
   }
 };
@@ -109,10 +110,15 @@ bool is_of_bundle(const Parameter& parameter) {
   return parameter.key.starts_with("tag.bundle.");
 }
 
-/// Keys of what may be repeated need one of them to speak of.
-void make_first(SceneSettings& settings, const Parameter& parameter) {
-  if (is_of_object(parameter) && settings.objects.empty()) settings.objects.emplace_back();
-  if (is_of_bundle(parameter) && settings.tag.bundle.empty()) settings.tag.bundle.emplace_back();
+/// The defaults of every row, with one of everything that there may be several of.
+const SceneSettings& defaults() {
+  static const SceneSettings settings = [] {
+    SceneSettings one;
+    one.objects.emplace_back();
+    one.tag.bundle.emplace_back();
+    return one;
+  }();
+  return settings;
 }
 
 std::optional<ParameterValue> vector_from_text(const std::string& text) {
@@ -157,9 +163,15 @@ bool PathKind::is_word(const std::string& text) const {
   });
 }
 
-void set_parameter(SceneSettings& settings, const Parameter& parameter, const ParameterValue& value) {
-  make_first(settings, parameter);
-  if (!std::visit(Store{settings, value}, parameter.kind))
+std::size_t element_count(const SceneSettings& settings, const Parameter& parameter) {
+  if (is_of_object(parameter)) return settings.objects.size();
+  return is_of_bundle(parameter) ? settings.tag.bundle.size() : 1;
+}
+
+void set_parameter(SceneSettings& settings, const Parameter& parameter, const ParameterValue& value, std::size_t index) {
+  if (is_of_object(parameter) && settings.objects.empty()) settings.objects.emplace_back();
+  if (is_of_bundle(parameter) && settings.tag.bundle.empty()) settings.tag.bundle.emplace_back();
+  if (!std::visit(Store{settings, value, index}, parameter.kind))
     throw Error(parameter.key + " is " + shown(value) + "; expected " + expected_text(parameter));
   settings.by_hand.insert(parameter.key);
 }
@@ -185,15 +197,17 @@ void set_parameter_from_text(SceneSettings& settings, const std::string& key, co
   }
 }
 
-std::string parameter_text(const SceneSettings& settings, const Parameter& parameter) {
-  SceneSettings copy = settings;  // the table's accessors give what they can also set
-  make_first(copy, parameter);
-  return std::visit(Overloaded{[&](const RealKind& kind) { return number_text(kind.access(copy)); },
-                               [&](const IntegerKind& kind) { return std::to_string(kind.access(copy)); },
-                               [&](const FlagKind& kind) { return std::string(kind.access(copy) ? "true" : "false"); },
-                               [&](const SwitchKind& kind) { return text_of(kind.access(copy)); },
-                               [&](const VectorKind& kind) { return text_of(kind.access(copy)); },
-                               [&](const auto& kind) { return kind.access(copy); }},
+std::string parameter_text(const SceneSettings& settings, const Parameter& parameter, std::size_t index) {
+  const bool is_there = index < element_count(settings, parameter);
+  const auto held = [&](const auto& access) -> const auto& {
+    return is_there ? access(settings, index) : access(defaults(), 0);
+  };
+  return std::visit(Overloaded{[&](const RealKind& kind) { return number_text(held(kind.access)); },
+                               [&](const IntegerKind& kind) { return std::to_string(held(kind.access)); },
+                               [&](const FlagKind& kind) { return std::string(held(kind.access) ? "true" : "false"); },
+                               [&](const SwitchKind& kind) { return text_of(held(kind.access)); },
+                               [&](const VectorKind& kind) { return text_of(held(kind.access)); },
+                               [&](const auto& kind) { return held(kind.access); }},
                     parameter.kind);
 }
 

@@ -45,7 +45,7 @@ class Reader {
       if (key.str() == "object")
         read_objects(node);
       else
-        read_entry("", key, node);
+        read_entry("", 0, key, node);
     }
   }
 
@@ -60,7 +60,7 @@ class Reader {
       fail(node.source(), "expected [[object]], in double brackets, once for each object");
     for (const toml::node& object : *objects) {
       settings_.objects.emplace_back();
-      read_table("object.", *object.as_table());
+      read_table("object.", settings_.objects.size() - 1, *object.as_table());
       if (settings_.objects.back().mesh.empty()) fail(object.source(), "this [[object]] has no mesh; give `mesh = \"FILE\"`");
     }
   }
@@ -71,20 +71,21 @@ class Reader {
       fail(node.source(), "expected [[tag.bundle]], in double brackets, once for each further tag of the board");
     for (const toml::node& tag : *tags) {
       settings_.tag.bundle.emplace_back();
-      read_table("tag.bundle.", *tag.as_table());
+      read_table("tag.bundle.", settings_.tag.bundle.size() - 1, *tag.as_table());
       if (!tag.as_table()->contains("id")) fail(tag.source(), "this [[tag.bundle]] has no id; give `id = NUMBER`");
     }
   }
 
-  void read_table(const std::string& prefix, const toml::table& table) {
-    for (const auto& [key, node] : table) read_entry(prefix, key, node);
+  /// `index` is that of the object or further tag that the table describes.
+  void read_table(const std::string& prefix, std::size_t index, const toml::table& table) {
+    for (const auto& [key, node] : table) read_entry(prefix, index, key, node);
   }
 
-  void read_entry(const std::string& prefix, const toml::key& key, const toml::node& node) {
+  void read_entry(const std::string& prefix, std::size_t index, const toml::key& key, const toml::node& node) {
     const std::string name = prefix + std::string(key.str());
     if (name == "tag.bundle") return read_bundle(node);
-    if (name == kMatrixKey) return read_matrix(key, node);
-    if (const Parameter* parameter = find_parameter(name)) return read_value(*parameter, node);
+    if (name == kMatrixKey) return read_matrix(index, key, node);
+    if (const Parameter* parameter = find_parameter(name)) return read_value(*parameter, index, node);
     if (std::find(names_.begin(), names_.end(), name) == names_.end())
       fail(key.source(), "unknown key '" + name + "'; did you mean '" + nearest(name, names_) + "'?");
     const toml::table* table = node.as_table();
@@ -92,7 +93,7 @@ class Reader {
     if (name == "object.tag_from_object" && table->contains("matrix") && table->size() > 1)
       fail(key.source(),
            "'" + name + "' has a matrix and more; expected either the matrix alone or translation_m, rotation_deg and scale");
-    read_table(name + '.', *table);
+    read_table(name + '.', index, *table);
   }
 
   static std::string type_of(const toml::node& node) {
@@ -102,11 +103,11 @@ class Reader {
     return (text == "array" || text == "integer" ? "an " : "a ") + text;
   }
 
-  void read_value(const Parameter& parameter, const toml::node& node) {
+  void read_value(const Parameter& parameter, std::size_t index, const toml::node& node) {
     const std::optional<ParameterValue> value = value_of(node);
     if (!value) fail(node.source(), parameter.key + " is " + type_of(node) + "; expected " + expected_text(parameter));
     try {
-      set_parameter(settings_, parameter, *value);
+      set_parameter(settings_, parameter, *value, index);
     } catch (const Error& error) {
       fail(node.source(), error.what());
     }
@@ -128,7 +129,7 @@ class Reader {
   }
 
   /// glm keeps columns, the file rows.
-  void read_matrix(const toml::key& key, const toml::node& node) {
+  void read_matrix(std::size_t index, const toml::key& key, const toml::node& node) {
     glm::dmat4 matrix(1.0);
     const toml::array* rows = node.as_array();
     if (!rows || rows->size() != 3) fail_matrix(key);
@@ -142,7 +143,7 @@ class Reader {
         matrix[column][row] = *number;
       }
     }
-    settings_.objects.back().matrix = matrix;
+    settings_.objects[index].matrix = matrix;
     settings_.by_hand.insert(kMatrixKey);
   }
 

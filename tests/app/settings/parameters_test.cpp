@@ -1,6 +1,6 @@
 #include "app/settings/parameters.hpp"
 #include "catchlight/error.hpp"
-#include "catchlight/util/text.hpp"
+#include "tests/support/parameter_values.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
@@ -14,19 +14,7 @@ namespace {
 
 using ::testing::HasSubstr;
 using tests::message_of;
-
-/// A value that the parameter takes and that is not its default.
-std::string other_value(const Parameter& parameter) {
-  const std::string present = parameter_text(SceneSettings{}, parameter);
-  if (const auto* real = std::get_if<RealKind>(&parameter.kind)) return number_text(real->min);
-  if (const auto* integer = std::get_if<IntegerKind>(&parameter.kind))
-    return std::to_string(std::to_string(integer->max) == present ? integer->min : integer->max);
-  if (std::holds_alternative<FlagKind>(parameter.kind)) return present == "true" ? "false" : "true";
-  if (std::holds_alternative<SwitchKind>(parameter.kind)) return "false";
-  if (std::holds_alternative<VectorKind>(parameter.kind)) return "0.25,0.5,0.75";
-  if (const auto* choice = std::get_if<ChoiceKind>(&parameter.kind)) return choice->choices.back();
-  return "/somewhere/file";
-}
+using tests::other_value;
 
 TEST(ParameterTable, KeysAreUniqueAndGrouped) {
   std::set<std::string> keys, sections;
@@ -172,6 +160,19 @@ TEST(ParameterFromText, PlacingAnObjectThatAMatrixPlacesIsRefused) {
   const auto place = [&] { set_parameter_from_text(settings, "object.tag_from_object.translation_m", "0,0,1"); };
   EXPECT_THAT(message_of<UsageError>(place), HasSubstr("the scene file places the object by a matrix"));
   EXPECT_NO_THROW(set_parameter_from_text(settings, "object.mesh", "/b.glb"));
+}
+
+TEST(ParameterTable, AnyElementOfWhatIsRepeatedIsReached) {
+  SceneSettings settings;
+  settings.objects.resize(3);
+  settings.tag.bundle.resize(3);
+  const Parameter &scale = *find_parameter("object.tag_from_object.scale"), &id = *find_parameter("tag.bundle.id");
+  set_parameter(settings, scale, 2.0, 1);
+  set_parameter(settings, id, std::int64_t{7}, 2);
+  for (const std::size_t i : {0u, 1u, 2u}) {
+    EXPECT_EQ(parameter_text(settings, scale, i), i == 1 ? "2" : "1");
+    EXPECT_EQ(parameter_text(settings, id, i), i == 2 ? "7" : "0");
+  }
 }
 
 TEST(ParameterReference, PageEqualsTheTable) {
