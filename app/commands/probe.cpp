@@ -98,7 +98,7 @@ void check_part(const std::string& path) {
 
 /// None where nothing is to be written.
 std::optional<PendingFile> pending_part(const std::string& path, bool overwrite) {
-  return path.empty() ? std::nullopt : std::optional<PendingFile>(std::in_place, path, overwrite);
+  return path.empty() ? std::nullopt : std::optional<PendingFile>(pending_output(path, overwrite));
 }
 
 /// What the rest leaves of the probe.
@@ -129,7 +129,7 @@ void convert(const ProbeArguments& arguments, Log& log) {
   const render::ProbeLayout layout = render::probe_layout_from_name(arguments.layout_out);
   if (!arguments.output.ends_with(".exr") && !arguments.output.ends_with(".hdr"))
     throw UsageError(arguments.output + ": expected a name that ends in .exr or .hdr");
-  PendingFile output(arguments.output, arguments.overwrite);
+  PendingFile output = pending_output(arguments.output, arguments.overwrite);
   render::save_probe(output.pending_path(), render::convert(load(arguments, log), layout, arguments.width_px));
   output.commit();
 }

@@ -60,7 +60,7 @@ void read_tag(Options& options, bool is_tag_given) {
 void merge(Options& options, bool is_tag_given, Log& log) {
   if (!options.output.ends_with(".exr") && !options.output.ends_with(".hdr"))
     throw UsageError(options.output + ": expected a name that ends in .exr or .hdr");
-  PendingFile output(options.output, options.overwrite);
+  PendingFile output = pending_output(options.output, options.overwrite);
   MergeRequest& request = options.request;
   if (!options.first_view.empty()) request.views.insert(request.views.begin(), options.first_view);
   if (!options.times.empty()) request.times_s = exposure_times_from_text(options.times);

@@ -96,7 +96,7 @@ void write_reference_png(const std::string& path, const Image& exposed_linear, c
       }
     }
   }
-  PendingFile file(path, overwrite);
+  PendingFile file = pending_output(path, overwrite);
   if (!cv::imwrite(file.pending_path(), picture)) throw Error("cannot write " + path + "; is the disk full?");
   file.commit();
 }

@@ -9,11 +9,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <glm/glm.hpp>
 
 #include "catchlight/error.hpp"
 #include "catchlight/image.hpp"
+#include "catchlight/util/pending_file.hpp"
 #include "render/image/image_io.hpp"
 
 namespace catchlight::render {
@@ -182,15 +182,13 @@ void write_exr(const std::string& path, const std::vector<ExrLayer>& layers, std
       throw std::invalid_argument("write_exr: layer \"" + layer.name + "\" of " + path + " has another size or too few channels");
     }
   }
-  const std::string partial = path + ".partial";
+  PendingFile file(path);
   try {
-    write(partial, layers, envmap);
-    std::filesystem::rename(partial, path);
+    write(file.pending_path(), layers, envmap);
   } catch (const std::exception& error) {
-    std::error_code ignored;
-    std::filesystem::remove(partial, ignored);
     throw Error(path + ": cannot be written: " + error.what());
   }
+  file.commit();
 }
 
 }  // namespace catchlight::render

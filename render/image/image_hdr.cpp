@@ -3,12 +3,12 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "catchlight/error.hpp"
 #include "catchlight/image.hpp"
+#include "catchlight/util/pending_file.hpp"
 #include "render/image/image_io.hpp"
 
 namespace catchlight::render {
@@ -163,24 +163,17 @@ Image read_hdr(const std::string& path) {
 }
 
 void write_hdr(const std::string& path, const Image& image) {
-  const std::string partial = path + ".partial";
-  {
-    std::ofstream out(partial, std::ios::binary);
-    out << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " << image.height << " +X " << image.width << "\n";
-    std::vector<Rgbe> line(image.width);
-    for (int y = 0; y < image.height; ++y) {
-      for (int x = 0; x < image.width; ++x) line[x] = encode(image.pixel(x, y));
-      write_scanline(out, line);
-    }
-    if (!out.flush()) {
-      std::error_code ignored;
-      std::filesystem::remove(partial, ignored);
-      throw Error(path + ": cannot be written");
-    }
+  PendingFile file(path);
+  std::ofstream out(file.pending_path(), std::ios::binary);
+  out << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " << image.height << " +X " << image.width << "\n";
+  std::vector<Rgbe> line(image.width);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) line[x] = encode(image.pixel(x, y));
+    write_scanline(out, line);
   }
-  std::error_code failed;
-  std::filesystem::rename(partial, path, failed);
-  if (failed) throw Error(path + ": cannot be written: " + failed.message());
+  out.close();
+  if (!out) throw Error(path + ": cannot be written; is the disk full?");
+  file.commit();
 }
 
 }  // namespace catchlight::render

@@ -31,14 +31,15 @@ struct ExrLayer {
   bool as_float = false;  ///< 32 bits (depth, positions); else half, with values beyond +-65504 held there
 };
 
-/// All layers have one size. Written as `path` + ".partial", then renamed; ZIP; attribute chromaticities = Rec. 709.
+/// All layers have one size. The file is a PendingFile until it is whole; ZIP; attribute chromaticities = Rec. 709.
 /// Throws Error naming the file where it cannot be written.
 void write_exr(const std::string& path, const std::vector<ExrLayer>& layers, std::optional<ExrEnvmap> envmap = {});
 
 /// Radiance .hdr (RGBE), any of the eight orientations, with its EXPOSURE lines divided out. Throws Error naming the file.
 Image read_hdr(const std::string& path);
 
-/// Relative error up to 1/256 of the brightest channel; negative values become 0. Written beside and renamed. Throws Error.
+/// Relative error up to 1/256 of the brightest channel; negative values become 0. The file is a PendingFile until it is whole.
+/// Throws Error.
 void write_hdr(const std::string& path, const Image& image);
 
 }  // namespace catchlight::render

@@ -53,7 +53,7 @@ Transfer bake_transfer(const Mesh& mesh_tag, const ReceiverGrid& grid, const Tra
 std::string transfer_key(const Mesh& mesh_tag, const ReceiverGrid& grid, const TransferOptions& options);
 
 /// bake_transfer behind a cache folder (default: $XDG_CACHE_HOME/catchlight). A damaged or foreign cache file is baked anew;
-/// an unwritable folder only costs a warning. `cache_hit` (optional) says whether it was read.
+/// an unwritable folder only costs a warning, before the bake. `cache_hit` (optional) says whether it was read.
 Transfer load_or_bake_transfer(const Mesh& mesh_tag, const ReceiverGrid& grid, const TransferOptions& options,
                                const std::string& cache_folder, const ProgressHandler& progress, const WarningHandler& warn,
                                bool* cache_hit = nullptr);

@@ -6,11 +6,12 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
-#include <random>
+#include <stdexcept>
 #include <type_traits>
 
 #include "catchlight/error.hpp"
 #include "catchlight/progress.hpp"
+#include "catchlight/util/pending_file.hpp"
 #include "render/transfer/transfer.hpp"
 
 namespace catchlight::render {
@@ -135,12 +136,9 @@ std::optional<Transfer> read_cached(const fs::path& file, const std::string& key
   return transfer;
 }
 
-// Under a name of its own first: another process may bake the same at the same time, and a crash leaves no half file behind the
-// key.
-void write_cached(const fs::path& file, const std::string& key, const Transfer& transfer) {
-  fs::create_directories(file.parent_path());
-  const fs::path partial = file.string() + "." + std::to_string(std::random_device()()) + ".partial";
-  std::ofstream out(partial, std::ios::binary);
+void write_cached(const fs::path& path, const std::string& key, const Transfer& transfer) {
+  PendingFile file(path);
+  std::ofstream out(file.pending_path(), std::ios::binary);
   const FileHeader header = header_for(transfer, key);
   out.write(reinterpret_cast<const char*>(&header), sizeof header);
   write_from(out, transfer.object);
@@ -149,12 +147,25 @@ void write_cached(const fs::path& file, const std::string& key, const Transfer& 
   write_from(out, transfer.receiver_direct);
   write_from(out, transfer.receiver_unshadowed);
   out.close();
-  if (!out) {
-    std::error_code ignored;
-    fs::remove(partial, ignored);
-    throw fs::filesystem_error("cannot write", partial, std::make_error_code(std::errc::io_error));
+  if (!out) throw Error(path.string() + ": cannot be written; is the disk full?");
+  file.commit();
+}
+
+// Whether the work went through; a warning says why not.
+template <class Work>
+bool keep(Work work, const WarningHandler& warn) {
+  try {
+    work();
+    return true;
+  } catch (const std::runtime_error& error) {
+    if (warn) warn(std::string("the baked light transfer cannot be kept for next time: ") + error.what());
+    return false;
   }
-  fs::rename(partial, file);
+}
+
+void check_cache_folder(const fs::path& file) {
+  fs::create_directories(file.parent_path());
+  const PendingFile made_and_removed(file);
 }
 
 }  // namespace
@@ -187,12 +198,9 @@ Transfer load_or_bake_transfer(const Mesh& mesh_tag, const ReceiverGrid& grid, c
     if (progress) progress(1.0);
     return std::move(*cached);
   }
+  const bool can_be_kept = keep([&] { check_cache_folder(file); }, warn);  // before the long work
   Transfer transfer = bake_transfer(mesh_tag, grid, options, progress);
-  try {
-    write_cached(file, key, transfer);
-  } catch (const fs::filesystem_error& error) {
-    if (warn) warn(file.string() + ": the baked light transfer cannot be kept for next time: " + error.code().message());
-  }
+  if (can_be_kept) keep([&] { write_cached(file, key, transfer); }, warn);
   return transfer;
 }
 

@@ -7,12 +7,12 @@
 namespace catchlight::app {
 
 SequenceSink::SequenceSink(SequencePattern pattern, bool overwrite) : pattern_(std::move(pattern)), overwrite_(overwrite) {
-  const PendingFile probe(pattern_.file(0), true);  // an unwritable folder should not wait for the first frame
+  check_output_path(pattern_.file(0), true);  // an unwritable folder should not wait for the first frame
 }
 
 void SequenceSink::write(const Frame& frame) {
   const std::string path = pattern_.file(frame.number()), what = "cannot write '" + path + "'";
-  const PendingFile& file = files_.emplace_back(path, overwrite_);
+  const PendingFile& file = files_.emplace_back(pending_output(path, overwrite_));
   if (!encoder_) encoder_ = open_encoder(VideoCodec::png, frame.picture(), {1, 1}, false, {});
   const FramePtr picture = frame_for(*encoder_, frame.picture());
   check_ffmpeg(avcodec_send_frame(encoder_.get(), picture.get()), what);

@@ -10,7 +10,7 @@ namespace catchlight::app {
 
 VideoSink::VideoSink(VideoSinkRequest request) : request_(std::move(request)) {
   const bool to_stdout = request_.path == "-";
-  if (!to_stdout) file_.emplace(request_.path, request_.options.overwrite);
+  if (!to_stdout) file_.emplace(pending_output(request_.path, request_.options.overwrite));
   const std::string url = to_stdout ? "pipe:1" : "file:" + file_->pending_path();
   AVFormatContext* output = nullptr;
   check_ffmpeg(avformat_alloc_output_context2(&output, nullptr, request_.muxer.c_str(), url.c_str()), what());

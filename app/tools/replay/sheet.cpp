@@ -21,7 +21,7 @@ void write_sheet(const std::string& path, const std::vector<cv::Mat>& rows) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   std::error_code error;
   if (!folder.empty()) std::filesystem::create_directories(folder, error);
-  PendingFile file(path, true);
+  PendingFile file = pending_output(path, true);
   cv::Mat sheet;
   cv::vconcat(rows, sheet);
   if (!cv::imwrite(file.pending_path(), sheet)) throw Error("cannot write " + path + "; is the disk full?");

@@ -45,53 +45,19 @@ TEST(OutputFile, EmptyNameIsRefused) {
   EXPECT_THROW(check_output_path("", true), UsageError);
 }
 
-TEST(PendingFile, KeepsTheExtensionThatWritersGoBy) {
-  const TemporaryFolder folder;
-  const PendingFile pending(folder.path("probe.exr"), false);
-  EXPECT_THAT(pending.pending_path(), ::testing::EndsWith(".exr"));
-  EXPECT_NE(pending.pending_path(), folder.path("probe.exr"));
-}
-
-TEST(PendingFile, LeavesNothingWithoutCommit) {
-  const TemporaryFolder folder;
-  {
-    const PendingFile pending(folder.path("probe.exr"), false);
-    std::ofstream(pending.pending_path()) << "half";
-    EXPECT_EQ(folder.names().size(), 1u);
-  }
-  EXPECT_THAT(folder.names(), IsEmpty());
-}
-
-TEST(PendingFile, IsThereAtOnceSoThatAnUnwritableFolderIsFoundOutBeforeTheWork) {
-  const TemporaryFolder folder;
-  const PendingFile pending(folder.path("probe.exr"), false);
-  EXPECT_EQ(tests::read_text(pending.pending_path()), "");
-  EXPECT_THAT(folder.names(), ElementsAre(HasSubstr(".partial-")));
+TEST(OutputFile, UnwritableFolderIsFoundOutBeforeTheWork) {
   // Nobody, root included, can make files there.
-  EXPECT_THAT(message_of<Error>([] { PendingFile("/proc/probe.exr", false); }), HasSubstr("/proc/probe.exr: cannot write"));
+  EXPECT_THAT(message_of<Error>([] { check_output_path("/proc/probe.exr", false); }), HasSubstr("/proc/probe.exr: cannot write"));
 }
 
-TEST(PendingFile, MovesWithoutRemovingOrCommittingTwice) {
-  const TemporaryFolder folder;
-  {
-    PendingFile first(folder.path("probe.exr"), false);
-    std::ofstream(first.pending_path()) << "whole";
-    PendingFile second(std::move(first));
-    second.commit();
-  }
-  EXPECT_EQ(tests::read_text(folder.path("probe.exr")), "whole");
-  EXPECT_THAT(folder.names(), ElementsAre("probe.exr"));
+TEST(OutputFile, DeviceIsNotReplaced) {
+  EXPECT_THAT(message_of<UsageError>([] { check_output_path("/dev/null", true); }), HasSubstr("/dev/null: is a device"));
 }
 
-TEST(PendingFile, OldFileSurvivesAFailedWriter) {
+TEST(OutputFile, CheckLeavesNothing) {
   const TemporaryFolder folder;
-  const std::string path = folder.write("probe.exr", "old");
-  {
-    const PendingFile pending(path, true);
-    std::ofstream(pending.pending_path()) << "half";
-  }
-  EXPECT_EQ(tests::read_text(path), "old");
-  EXPECT_THAT(folder.names(), ElementsAre("probe.exr"));
+  check_output_path(folder.path("report.json"), false);
+  EXPECT_THAT(folder.names(), IsEmpty());
 }
 
 }  // namespace

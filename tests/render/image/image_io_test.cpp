@@ -3,7 +3,7 @@
 #include "catchlight/image.hpp"
 #include "tests/support/test_files.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -13,7 +13,9 @@
 #include <OpenEXR/ImfStandardAttributes.h>
 
 #include <cmath>
+#include <functional>
 #include <opencv2/imgcodecs.hpp>
+#include <thread>
 
 namespace catchlight::render {
 namespace {
@@ -22,6 +24,26 @@ Image ramp(int width, int height, int channels = 3) {
   Image image(width, height, channels);
   for (std::size_t i = 0; i < image.data.size(); ++i) image.data[i] = static_cast<float>(i) / 8;  // exact in half up to 256
   return image;
+}
+
+std::vector<std::string> names_in(const std::string& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.push_back(entry.path().filename());
+  return names;
+}
+
+/// Lets two threads write pictures of another size and colour under one name, again and again.
+void expect_one_whole_file(const std::function<void(const Image&)>& write, const std::function<Image()>& read) {
+  const auto write_often = [&](int size, float value) {
+    Image image(size, size);
+    std::fill(image.data.begin(), image.data.end(), value);
+    for (int i = 0; i < 40; ++i) EXPECT_EQ(error_of([&] { write(image); }), "");
+  };
+  std::thread other([&] { write_often(150, 2.0f); });
+  write_often(100, 1.0f);
+  other.join();
+  const Image image = read();
+  EXPECT_THAT(image.data, testing::Each(image.width == 100 ? 1.0f : 2.0f));
 }
 
 // Writes with OpenEXR alone: any channels, windows and primaries.
@@ -88,6 +110,14 @@ TEST(ExrFile, LeavesNothingBehindWhereItCannotBeWritten) {
   std::filesystem::create_directories(folder / "taken.exr/inside");
   EXPECT_THROW(write_exr(folder / "taken.exr", {{"", &image, {"R", "G", "B"}}}), Error);
   EXPECT_FALSE(std::filesystem::exists(folder / "taken.exr.partial"));
+  EXPECT_THAT(names_in(folder / ""), testing::ElementsAre("taken.exr"));
+}
+
+TEST(ExrFile, TwoWritersOfOneFileLeaveOneWholeFile) {
+  const TempFolder folder;
+  const auto write = [&](const Image& image) { write_exr(folder / "a.exr", {{"", &image, {"R", "G", "B"}}}); };
+  expect_one_whole_file(write, [&] { return read_exr(folder / "a.exr"); });
+  EXPECT_THAT(names_in(folder / ""), testing::ElementsAre("a.exr"));
 }
 
 TEST(ExrFile, ReadsADataWindowThatStartsAnywhere) {
@@ -170,6 +200,13 @@ TEST(HdrFile, RoundTripsWithinItsPrecision) {
       for (int c = 0; c < 3; ++c) EXPECT_NEAR(read.data[3 * i + c], image.data[3 * i + c], brightest / 128);
     }
   }
+}
+
+TEST(HdrFile, TwoWritersOfOneFileLeaveOneWholeFile) {
+  const TempFolder folder;
+  expect_one_whole_file([&](const Image& image) { write_hdr(folder / "a.hdr", image); },
+                        [&] { return read_hdr(folder / "a.hdr"); });
+  EXPECT_THAT(names_in(folder / ""), testing::ElementsAre("a.hdr"));
 }
 
 TEST(HdrFile, BlackNegativeAndHugeValuesAreSane) {

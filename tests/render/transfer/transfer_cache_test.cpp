@@ -139,7 +139,9 @@ TEST_F(TransferCache, TrailingBytesAreBakedAnew) {
 TEST_F(TransferCache, UnwritableFolderOnlyCostsAWarning) {
   write_text(folder_ / "taken", "a file where the folder should be");
   bool hit = true;
-  const Transfer transfer = load_or_bake_transfer(mesh_, grid_, options_, folder_ / "taken", {}, warnings_.handler(), &hit);
+  const auto is_warned = [&](double) { EXPECT_EQ(warnings_.all.size(), 1u) << "before the bake, not after it"; };
+  const Transfer transfer =
+      load_or_bake_transfer(mesh_, grid_, options_, folder_ / "taken", is_warned, warnings_.handler(), &hit);
   EXPECT_FALSE(hit);
   EXPECT_FALSE(transfer.object.empty());
   ASSERT_EQ(warnings_.all.size(), 1u);
