@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <random>
 #include <utility>
@@ -19,8 +18,7 @@ namespace fs = std::filesystem;
 /// In the same folder, so that renaming never copies; with the extension, which writers go by. Process numbers would not tell
 /// writers on two machines apart.
 fs::path random_name_beside(const fs::path& target) {
-  char partial[32];
-  std::snprintf(partial, sizeof partial, ".partial-%08x", static_cast<unsigned>(std::random_device()()));
+  const std::string partial = ".partial-" + std::to_string(std::random_device()());
   return target.parent_path() / ('.' + target.stem().string() + partial + target.extension().string());
 }
 
