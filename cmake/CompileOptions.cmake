@@ -1,7 +1,5 @@
-# One interface target carries the flags of every target of ours.
+# One interface target carries the flags of every target of ours. All link it privately: flags are no part of an interface.
 add_library(catchlight_options INTERFACE)
-target_include_directories(catchlight_options INTERFACE ${PROJECT_SOURCE_DIR})
-target_link_libraries(catchlight_options INTERFACE glm::glm)
 # No contraction: the same source gives the same bytes whether or not the compiler may fuse multiply-adds.
 target_compile_options(catchlight_options INTERFACE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -ffp-contract=off)
 if(CATCHLIGHT_WERROR)
@@ -17,5 +15,6 @@ if(CATCHLIGHT_COVERAGE)
 endif()
 
 add_library(catchlight_headers OBJECT ${PROJECT_SOURCE_DIR}/cmake/headers.cpp)
-target_link_libraries(catchlight_headers PRIVATE catchlight_options)
+target_link_libraries(catchlight_headers PRIVATE catchlight_options glm::glm)
+target_include_directories(catchlight_headers PRIVATE ${PROJECT_SOURCE_DIR})
 target_precompile_headers(catchlight_headers PRIVATE ${PROJECT_SOURCE_DIR}/cmake/headers.hpp)

@@ -2,7 +2,6 @@
 // what they must.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,20 +9,10 @@
 #include "catchlight/pixel_rect.hpp"
 #include "render/gl/tap_programs.hpp"
 #include "render/glare/glare_plan.hpp"
+#include "render/glare/tile_mask.hpp"
 #include "render/passes/glare/glare_target.hpp"
 
 namespace catchlight::render {
-
-/// Tiles of a grid, row by row.
-struct TileMask {
-  int columns = 0, rows = 0;
-  std::vector<std::uint8_t> marked;  ///< 1 or 0
-
-  /// With all tiles that lie within so many tiles of one.
-  TileMask grown(int across, int down) const;
-  /// Disjoint rectangles, in tiles, of all that are marked.
-  std::vector<PixelRect> rectangles() const;
-};
 
 class GlareTiles {
  public:

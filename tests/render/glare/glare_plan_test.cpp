@@ -3,7 +3,7 @@
 #include "catchlight/image.hpp"
 #include "catchlight/pixel_rect.hpp"
 #include "render/glare/glare_kernel.hpp"
-#include "render/passes/glare/glare_tiles.hpp"
+#include "render/glare/tile_mask.hpp"
 #include "render/settings.hpp"
 
 #include <gtest/gtest.h>
