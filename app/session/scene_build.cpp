@@ -7,6 +7,7 @@
 
 #include "catchlight/util/text.hpp"
 #include "render/math/sh.hpp"
+#include "render/mesh/mesh_file.hpp"
 #include "render/probe/prefilter.hpp"
 #include "render/probe/probe_split.hpp"
 

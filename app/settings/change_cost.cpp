@@ -1,7 +1,5 @@
 #include "app/settings/change_cost.hpp"
 
-#include "app/settings/parameters.hpp"
-
 namespace catchlight::app {
 namespace {
 

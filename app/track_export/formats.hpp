@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/track_export/track_export.hpp"
+#include "app/track_export/shot.hpp"
 #include "catchlight/track.hpp"
 
 namespace catchlight::app {

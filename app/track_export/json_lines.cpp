@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/track_export/formats.hpp"
+#include "app/track_export/track_file.hpp"
 #include "catchlight/rigid_transform.hpp"
 #include "catchlight/track.hpp"
 

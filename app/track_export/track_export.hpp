@@ -4,20 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "app/settings/scene_settings.hpp"
+#include "app/track_export/shot.hpp"
 #include "app/track_export/track_file.hpp"
-#include "catchlight/camera.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/track.hpp"
 
 namespace catchlight::app {
-
-/// What an export says besides the track itself.
-struct Shot {
-  CameraModel camera;
-  SceneSettings scene;
-  bool is_sequence = false;  ///< frames have their files' own numbers
-};
 
 /// Throws UsageError naming the extensions there are, where `path` has another.
 void check_track_format(const std::string& path);

@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "catchlight/error.hpp"
-
 namespace catchlight::render {
 
 /// glTF 2.0 metallic-roughness. Colours are linear Rec. 709.
@@ -33,12 +31,6 @@ struct Mesh {
   std::vector<std::uint16_t> triangle_material;
   std::vector<Material> materials;
 };
-
-/// glTF 2.0 (.glb, .gltf) with node transforms applied; OBJ and PLY. Units are metres. Makes normals where the file has none
-/// (area and angle weighted, smooth). Base colour textures and vertex colours end up in Vertex::color, so albedo varies as finely
-/// as the vertices. Triangles without area are left out with a warning. Throws Error naming the file: unreadable, no triangles,
-/// non-finite positions, indices out of range, an unknown required extension.
-Mesh load_mesh(const std::string& path, const WarningHandler& warn);
 
 /// p -> linear part * p + translation; normals by the inverse transpose. `tag_from_object` is 3 rows of 4. Throws Error where
 /// singular.

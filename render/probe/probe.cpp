@@ -6,18 +6,11 @@
 #include <numbers>
 
 #include "catchlight/util/parallel.hpp"
-#include "render/probe/probe_layouts.hpp"
 
 namespace catchlight::render {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-constexpr std::array<std::pair<ProbeLayout, const char*>, 5> kNames{{{ProbeLayout::latlong, "latlong"},
-                                                                     {ProbeLayout::angular, "angular"},
-                                                                     {ProbeLayout::mirror_ball, "mirror-ball"},
-                                                                     {ProbeLayout::cube_cross, "cube-cross"},
-                                                                     {ProbeLayout::cube, "cube"}}};
 
 glm::vec3 texel(const Image& image, int x, int y) {
   const float* value = image.pixel(x, y);
@@ -144,19 +137,6 @@ glm::ivec2 size_of_width(ProbeLayout layout, int width) {
 }
 
 }  // namespace
-
-ProbeLayout probe_layout_from_name(const std::string& name) {
-  std::string known;
-  for (const auto& [layout, layout_name] : kNames) {
-    if (name == layout_name) return layout;
-    known += (known.empty() ? "" : ", ") + std::string(layout_name);
-  }
-  throw Error("unknown probe layout \"" + name + "\": expected one of " + known);
-}
-
-std::string name_of(ProbeLayout layout) {
-  return kNames[static_cast<std::size_t>(layout)].second;
-}
 
 glm::vec3 sample(const Probe& probe, const glm::dvec3& direction) {
   if (probe.layout == ProbeLayout::latlong) return sample_latlong(probe.image, direction);

@@ -1,8 +1,4 @@
 // Light probes: images of scene-linear radiance over all directions, in the layouts users have.
-//
-// The probe frame is +y up; in latlong (OpenEXR's ImfEnvmap.h) longitude 0 is +z in the middle column, +90 deg is +x, left of it.
-// Longitude is +180 deg at the left edge's pixel centres and -180 deg at the right edge's: outermost pixel centres lie on +-180
-// and +-90 deg.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -12,44 +8,24 @@
 #include "catchlight/error.hpp"
 #include "catchlight/image.hpp"
 #include "render/math/sh.hpp"
+#include "render/probe/probe_layouts.hpp"
 
 namespace catchlight::render {
-
-/// OpenEXR's layouts have their outermost texel centres on +-180 degrees, the poles and the cube's edges; the others have texel
-/// borders there.
-enum class ProbeLayout {
-  latlong,      ///< ImfEnvmap.h, as above
-  angular,      ///< Debevec's light probe: u = Dx r, v = Dy r, r = acos(Dz) / (pi sqrt(Dx^2 + Dy^2)); +z in the middle, +y up
-  mirror_ball,  ///< orthographic photograph of a mirror sphere, the camera at +z: the middle reflects +z
-  cube_cross,   ///< HDRShop's and cmft's 3 x 4 faces, OpenGL's orientation: +y; -x +z +x; -y; -z turned by half a turn
-  cube,         ///< ImfEnvmap.h: faces stacked +x -x +y -y +z -z
-};
-
-/// "latlong", "angular", "mirror-ball", "cube-cross", "cube"; throws Error naming them for anything else.
-ProbeLayout probe_layout_from_name(const std::string& name);
-std::string name_of(ProbeLayout layout);
 
 struct Probe {
   Image image;  ///< 3 channels, finite and >= 0 after load_probe
   ProbeLayout layout = ProbeLayout::latlong;
 };
 
-/// Probe-frame direction (length 1) of image position (x, y) in texels, texel centres at integers; empty outside the layout's
-/// valid area.
-std::optional<glm::dvec3> direction_from_texel(ProbeLayout layout, int width, int height, double x, double y);
-
-/// Inverse of direction_from_texel; finite for every direction, the poles and -z of the angular map included.
-glm::dvec2 texel_from_direction(ProbeLayout layout, int width, int height, const glm::dvec3& direction);
-
-/// Exact solid angle (sr) of texel (x, y), 0 outside the layout's valid area; they sum to 4 pi (mirror ball: less by its blind
-/// spot's rounding).
-double texel_solid_angle(ProbeLayout layout, int width, int height, int x, int y);
-
 /// Bilinear radiance in `direction`, continuous across the layout's seams.
 glm::vec3 sample(const Probe& probe, const glm::dvec3& direction);
 
 /// Same light in another layout, averaged over each texel. `width` 0 keeps the angular resolution at the equator.
 Probe convert(const Probe& probe, ProbeLayout layout, int width = 0);
+
+/// Texels that look in one direction (a pole's row, both columns of +-180 degrees, borders of OpenEXR's cube faces) get their
+/// mean, weighted by solid angle: no seam can show and no light is lost.
+void weld_seams(Probe& probe);
 
 struct ProbeLoadOptions {
   std::optional<ProbeLayout>

@@ -7,7 +7,7 @@
 #include "catchlight/error.hpp"
 #include "catchlight/image.hpp"
 #include "render/image/image_io.hpp"
-#include "render/probe/probe_layouts.hpp"
+#include "render/probe/probe.hpp"
 
 namespace catchlight::render {
 namespace {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "catchlight/util/parallel.hpp"
-#include "render/probe/probe_layouts.hpp"
+#include "render/probe/probe.hpp"
 
 namespace catchlight::render {
 namespace {

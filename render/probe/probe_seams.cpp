@@ -3,7 +3,7 @@
 #include <tuple>
 #include <vector>
 
-#include "render/probe/probe_layouts.hpp"
+#include "render/probe/probe.hpp"
 
 namespace catchlight::render {
 namespace {

@@ -2,9 +2,9 @@
 
 extern "C" {
 #include <libavutil/frame.h>
+}
 
 #include "catchlight/color.hpp"
-}
 
 namespace catchlight::app {
 namespace {

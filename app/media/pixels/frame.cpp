@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "app/media/pixels/color_tags.hpp"
+#include "app/media/pixels/composite_writer.hpp"
 #include "app/media/pixels/convert.hpp"
 #include "app/media/pixels/pixel_layout.hpp"
-#include "app/media/write/composite_writer.hpp"
 #include "catchlight/color.hpp"
 #include "catchlight/error.hpp"
 

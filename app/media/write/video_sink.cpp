@@ -2,9 +2,9 @@
 
 extern "C" {
 #include <libavutil/opt.h>
+}
 
 #include "catchlight/error.hpp"
-}
 
 namespace catchlight::app {
 

@@ -7,7 +7,7 @@
 #include "catchlight/color.hpp"
 #include "catchlight/image.hpp"
 #include "catchlight/util/parallel.hpp"
-#include "render/probe/probe_layouts.hpp"
+#include "render/probe/probe.hpp"
 
 namespace catchlight::app {
 namespace {

@@ -27,7 +27,6 @@ using ::testing::HasSubstr;
 using tests::BallScene;
 
 constexpr double kPi = glm::pi<double>();
-
 const std::vector<double> kTimes{4, 1, 0.25, 1.0 / 16, 1.0 / 64, 1.0 / 256};
 
 double luminance(const glm::dvec3& rgb) {

@@ -1,6 +1,6 @@
 // What is read of glTF files, made by hand, and what is refused.
 #include "catchlight/color.hpp"
-#include "render/mesh/mesh.hpp"
+#include "render/mesh/mesh_file.hpp"
 #include "tests/support/test_files.hpp"
 
 #include <gtest/gtest.h>

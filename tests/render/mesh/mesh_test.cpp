@@ -1,7 +1,7 @@
 // Meshes of other files, and what is done to meshes.
-#include "render/mesh/mesh.hpp"
 #include "catchlight/color.hpp"
 #include "catchlight/error.hpp"
+#include "render/mesh/mesh_file.hpp"
 #include "tests/support/shapes.hpp"
 #include "tests/support/test_files.hpp"
 

@@ -1,4 +1,4 @@
-#include "app/media/write/composite_writer.hpp"
+#include "app/media/pixels/composite_writer.hpp"
 
 #include "app/media/pixels/color_tags.hpp"
 #include "catchlight/color.hpp"

@@ -1,4 +1,4 @@
-#include "render/mesh/mesh.hpp"
+#include "render/mesh/mesh_file.hpp"
 
 #include <algorithm>
 #include <cmath>

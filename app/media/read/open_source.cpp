@@ -4,6 +4,7 @@
 
 #include "app/media/read/sequence.hpp"
 #include "app/media/read/video_source.hpp"
+#include "catchlight/error.hpp"
 
 namespace catchlight::app {
 namespace {
