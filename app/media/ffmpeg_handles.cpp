@@ -9,9 +9,9 @@ extern "C" {
 #include <libavdevice/avdevice.h>
 #include <libavutil/error.h>
 #include <libavutil/log.h>
+}
 
 #include "catchlight/error.hpp"
-}
 
 namespace catchlight::app {
 namespace {

@@ -6,9 +6,9 @@ extern "C" {
 #include <libavfilter/buffersink.h>
 #include <libavfilter/buffersrc.h>
 #include <libavutil/display.h>
+}
 
 #include "catchlight/error.hpp"
-}
 
 namespace catchlight::app {
 namespace {
