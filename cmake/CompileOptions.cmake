@@ -6,7 +6,10 @@ if(CATCHLIGHT_WERROR)
   target_compile_options(catchlight_options INTERFACE -Werror)
 endif()
 if(CATCHLIGHT_SANITIZE)
-  target_compile_options(catchlight_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  # The checks left out double the compile time; what they see, AddressSanitizer sees too when memory is read or written, but for
+  # misaligned reads, which x86-64 allows.
+  target_compile_options(catchlight_options INTERFACE -fsanitize=address,undefined -fno-sanitize=null,alignment,object-size,vptr
+    -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   target_link_options(catchlight_options INTERFACE -fsanitize=address,undefined)
 endif()
 if(CATCHLIGHT_COVERAGE)
