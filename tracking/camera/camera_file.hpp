@@ -1,6 +1,7 @@
 // Reads camera.yaml: OpenCV FileStorage as its calibration writes it, and ROS camera_info.
 #pragma once
 
+#include <glm/glm.hpp>
 #include <string>
 
 #include "catchlight/camera.hpp"

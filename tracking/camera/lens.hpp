@@ -2,6 +2,7 @@
 // "Ideal" pixels are what the same camera without distortion would have seen: there, straight edges are straight.
 #pragma once
 
+#include <glm/glm.hpp>
 #include <optional>
 
 #include "catchlight/camera.hpp"

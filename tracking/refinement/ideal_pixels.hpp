@@ -1,6 +1,7 @@
 // Where every pixel of a lens would be without its distortion, remembered: frames ask for the same pixels again and again.
 #pragma once
 
+#include <glm/glm.hpp>
 #include <optional>
 #include <vector>
 

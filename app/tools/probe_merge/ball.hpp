@@ -1,6 +1,7 @@
 // The mirror ball in a picture: where it is, and what each point of it reflects.
 #pragma once
 
+#include <glm/glm.hpp>
 #include <optional>
 #include <string>
 #include <vector>

@@ -2,6 +2,7 @@
 
 #include <toml++/toml.h>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <sstream>
 

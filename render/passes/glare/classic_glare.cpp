@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <glm/glm.hpp>
 
 #include "render/gl/shader.hpp"
 #include "shaders/interface.h"

@@ -1,5 +1,7 @@
 #include "render/passes/glare/glare_target.hpp"
 
+#include <glm/glm.hpp>
+
 #include "shaders/interface.h"
 
 namespace catchlight::render {

@@ -5,6 +5,7 @@
 #include "catchlight/rigid_transform.hpp"
 
 #include <gtest/gtest.h>
+#include <vector>
 
 #include <cmath>
 #include <opencv2/calib3d.hpp>

@@ -4,6 +4,7 @@
 #include "tests/support/test_files.hpp"
 
 #include <gmock/gmock.h>
+#include <array>
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
