@@ -97,7 +97,7 @@ double gain_between(const BallPicture& reference, const BallPicture& other, doub
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < 2 * kHeight; ++x) {
       const glm::dvec3 direction = *render::direction_from_texel(render::ProbeLayout::latlong, 2 * kHeight, kHeight, x, y);
-      double luminance[2];
+      double luminance[2] = {};
       bool is_seen = true;
       for (const int i : {0, 1}) {
         const BallPicture& view = i == 0 ? reference : other;
