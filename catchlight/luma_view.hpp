@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "catchlight/color.hpp"
+#include "catchlight/response.hpp"
 
 namespace catchlight {
 

@@ -4,12 +4,10 @@
 #include <cstddef>
 #include <functional>
 #include <glm/glm.hpp>
-#include <memory>
 #include <vector>
 
-#include "catchlight/color.hpp"
 #include "catchlight/pixel_rect.hpp"
-#include "catchlight/response_curve.hpp"
+#include "catchlight/response.hpp"
 
 namespace catchlight {
 
@@ -25,11 +23,15 @@ struct Plate {
 /// Gives the requested part of the current frame; called only for what the virtual layer reaches.
 using PlateReader = std::function<Plate(const PixelRect&)>;
 
-/// How the footage codes light.
-struct PlateColor {
-  TransferFunction transfer = TransferFunction::srgb;
-  glm::mat3 plate_from_rec709{1.0f};                ///< linear primaries conversion
-  std::shared_ptr<const ResponseCurve> curve = {};  ///< stands in for `transfer`
+/// How the footage codes light: the camera's response, and its primaries.
+struct PlateColor : CameraResponse {
+  glm::mat3 plate_from_rec709{1.0f};  ///< linear
 };
+
+/// The plate's light as RGB triples, row-major, Rec. 709 primaries; 1 = sensor white.
+std::vector<float> linear_rgb(const Plate& plate, const PlateColor& color);
+
+/// Light of the clipping level, a channel each. Infinite for float plates, which do not clip.
+glm::dvec3 clipping_linear(Plate::Format format, const PlateColor& color);
 
 }  // namespace catchlight

@@ -1,4 +1,4 @@
-// catchlight.hpp's linear_from_code() and its inverse, see there. 203 cd/m2 and HLG's code 0.75 are 1.
+// catchlight/response.hpp's linear_from_code() and its inverse, see there. 203 cd/m2 and HLG's code 0.75 are 1.
 const float kPqScale = 10000.0 / 203.0, kHlgScale = 0.26496256;
 
 vec3 linear_from_srgb(vec3 code) {
@@ -32,7 +32,7 @@ vec3 hlg_from_linear(vec3 light) {
   return mix(0.17883277 * log(max(12.0 * scene - 0.28466892, 1e-6)) + 0.55991073, sqrt(3.0 * scene), lessThanEqual(scene, vec3(1.0 / 12.0)));
 }
 
-// response_curve.hpp's ResponseCurve: the channels' tables one after the other.
+// catchlight/response.hpp's ResponseCurve: the channels' tables one after the other.
 layout(std430, binding = BINDING_RESPONSE) readonly buffer ResponseBlock { float response_light[]; };
 
 float linear_from_curve(float code, int channel) {

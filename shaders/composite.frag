@@ -17,9 +17,6 @@ layout(location = 2) out vec4 object_layer;
 layout(location = 3) out vec4 shadow_layer;
 layout(location = 4) out vec4 glare_layer;
 
-// Linear light of an 8-bit code of 253: compression may leave a clipped surface there.
-const float kClipped = 0.982;
-
 vec3 finite_or_zero(vec3 v) { return mix(v, vec3(0.0), bvec3(uvec3(isnan(v)) | uvec3(isinf(v)))); }
 
 vec3 glare_at(ivec2 pixel) {
@@ -52,7 +49,7 @@ void main() {
   vec3 background = finite_or_zero(linear_from_code(transfer, code));
   vec3 black = composite.black.rgb;
   // Where the plate is clipped the receiver is brighter than it shows, and so is its shadow.
-  bvec3 clipped = composite.modes.y != 0 ? greaterThanEqual(background, vec3(kClipped)) : bvec3(false);
+  bvec3 clipped = composite.modes.y != 0 ? greaterThanEqual(code, composite.code_limits.yyy) : bvec3(false);
   vec3 lit = mix(background, max(background, composite.receiver_light.rgb), clipped);
   vec3 shadowed = max(lit - black, 0.0) * ratio + min(background, black);
   over.rgb += over.a * black;
@@ -63,7 +60,7 @@ void main() {
   vec3 new_code = untouched ? code : code_from_linear(transfer, light);
   if (composite.modes.y != 0) new_code = clamp(new_code, 0.0, 1.0);
   // A NaN in the plate compares as changed once something virtual covers it.
-  bool changed = !untouched && !all(lessThanEqual(abs(new_code - code), composite.changed_code.xxx));
+  bool changed = !untouched && !all(lessThanEqual(abs(new_code - code), composite.code_limits.xxx));
   result = composite.modes.w != 0 ? vec4(light, 1.0) : vec4(new_code, changed ? 1.0 : 0.0);  // tone.frag goes on from light
 
   plate_layer = vec4(background, 1.0);

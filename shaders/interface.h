@@ -138,7 +138,7 @@ UNIFORM_BLOCK(CompositeUniforms, BINDING_COMPOSITE) {
   ivec4 modes;         // TransferFunction, codes end at 1, glare (1: on its grid, 2: by pixels), result is linear light
   vec4 black;
   vec4 receiver_light;    // of the receiver where it is not shadowed, exposed linear; 0: not known
-  vec4 changed_code;      // x: smallest difference of codes that counts
+  vec4 code_limits;       // x: smallest difference of codes that counts; y: the clipping level
   vec4 glare_from_frame;  // texels of the glare = pixel * xy + zw
   ivec4 noise;            // added, seed, log2 of the pixels that share a colour (across, down)
   vec4 noise_slope;       // variance = slope * light + floor

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <optional>
 
-#include "app/photometry/linear_patch.hpp"
 #include "catchlight/color.hpp"
 #include "catchlight/pixel_rect.hpp"
 #include "catchlight/plate.hpp"
+#include "catchlight/response.hpp"
 #include "catchlight/rigid_transform.hpp"
 #include "catchlight/util/statistics.hpp"
 #include "tracking/camera/lens.hpp"
@@ -20,16 +20,16 @@
 namespace catchlight::app {
 namespace {
 
-constexpr double kReachSigmas = 3, kReachPx = 1;        ///< how far an edge's light reaches: blur, and the chroma's own filter
-constexpr std::size_t kMinBlocks = 8;                   ///< in a cell
-constexpr double kMaxOfMedian = 2.5;                    ///< a cell with more variance is not flat
-constexpr double kDarkest = 0.004, kBrightest = 0.985;  ///< codes beyond are clipped
-constexpr double kMaxPixels = 100'000;                  ///< looked at in a frame
-constexpr double kNoiselessLight = 0.03;                ///< the darkest that may be without noise
-constexpr int kPaperCells = 4;                          ///< of the sheet around the print
-constexpr double kPaperLikeness = 0.15;                 ///< the sheet's light differs by no more from the print's white
-constexpr double kMaxOfFine = 3;                        ///< grain smeared by a codec has no more; else it is texture
-constexpr double kWeightFloor = 0.02;                   ///< variance grows about as light + this, so that its own error does too
+constexpr double kReachSigmas = 3, kReachPx = 1;  ///< how far an edge's light reaches: blur, and the chroma's own filter
+constexpr std::size_t kMinBlocks = 8;             ///< in a cell
+constexpr double kMaxOfMedian = 2.5;              ///< a cell with more variance is not flat
+constexpr double kBlackestCode = 0.004;           ///< darker ones may be clipped, as from kClippingCode on
+constexpr double kMaxPixels = 100'000;            ///< looked at in a frame
+constexpr double kNoiselessLight = 0.03;          ///< the darkest that may be without noise
+constexpr int kPaperCells = 4;                    ///< of the sheet around the print
+constexpr double kPaperLikeness = 0.15;           ///< the sheet's light differs by no more from the print's white
+constexpr double kMaxOfFine = 3;                  ///< grain smeared by a codec has no more; else it is texture
+constexpr double kWeightFloor = 0.02;             ///< variance grows about as light + this, so that its own error does too
 
 /// What is left of values at places after their best plane.
 template <class Value>
@@ -92,7 +92,7 @@ void add_block(const CodePlanes& planes, int column, int row, CellBlocks& cell) 
       if (const auto fine = fine_difference(planes, x, y)) cell.fine.push_back(*fine * *fine);
       sum += luma;
       const glm::dvec3 rgb = luma + color;
-      if (glm::any(glm::lessThan(rgb, glm::dvec3(kDarkest))) || glm::any(glm::greaterThan(rgb, glm::dvec3(kBrightest))))
+      if (glm::any(glm::lessThan(rgb, glm::dvec3(kBlackestCode))) || glm::any(glm::greaterThan(rgb, glm::dvec3(kClippingCode))))
         cell.is_clipped = true;
     }
   cell.block_luma.push_back(sum / (size.x * size.y));

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <tuple>
 
-#include "app/photometry/linear_patch.hpp"
 #include "catchlight/color.hpp"
+#include "catchlight/plate.hpp"
+#include "catchlight/response.hpp"
 #include "catchlight/util/statistics.hpp"
 #include "catchlight/util/text.hpp"
 

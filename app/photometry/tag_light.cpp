@@ -1,7 +1,7 @@
 #include "app/photometry/tag_light.hpp"
 
-#include "app/photometry/linear_patch.hpp"
 #include "catchlight/pixel_rect.hpp"
+#include "catchlight/plate.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -20,9 +20,8 @@ std::optional<TagLight::Reading> TagLight::read(const Frame& frame, const TrackR
     const RigidTransform camera_from_this = row.camera_from_tag * tag.tag_from_this;
     const PixelRect region = tracking::photometry_region(camera_, camera_from_this, alone(tag));
     if (region.empty()) continue;
-    const std::vector<float> linear = linear_rgb(frame, region);
-    const auto seen =
-        tracking::measure_photometry({region, linear, clipped_linear(frame)}, camera_, camera_from_this, alone(tag), blur_px2);
+    const tracking::LinearPatch patch = tracking::linear_patch(frame.rgb(region), frame.color());
+    const auto seen = tracking::measure_photometry(patch, camera_, camera_from_this, alone(tag), blur_px2);
     if (seen && !glm::any(seen->is_clipped)) return Reading{*seen, tag};
     if (seen && !clipped) clipped = Reading{*seen, tag};
   }
@@ -33,8 +32,7 @@ tracking::PlaneLight TagLight::plane(const Frame& frame, const RigidTransform& c
   const RigidTransform camera_from_this = camera_from_tag * tag.tag_from_this;
   const PixelRect region = tracking::plane_region(camera_, camera_from_this, alone(tag));
   if (region.empty()) return {};
-  const std::vector<float> linear = linear_rgb(frame, region);
-  return tracking::measure_plane({region, linear, clipped_linear(frame)}, camera_, camera_from_this, alone(tag));
+  return tracking::measure_plane(tracking::linear_patch(frame.rgb(region), frame.color()), camera_, camera_from_this, alone(tag));
 }
 
 std::optional<std::string> exposure_warning(std::int64_t drawn, std::int64_t held, std::int64_t guessed) {

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "app/response/response_points.hpp"
-#include "catchlight/color.hpp"
+#include "catchlight/response.hpp"
 #include "catchlight/util/text.hpp"
 
 namespace catchlight::app {

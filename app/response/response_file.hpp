@@ -5,7 +5,7 @@
 #include <string>
 
 #include "catchlight/error.hpp"
-#include "catchlight/response_curve.hpp"
+#include "catchlight/response.hpp"
 
 namespace catchlight::app {
 

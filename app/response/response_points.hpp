@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "catchlight/error.hpp"
-#include "catchlight/response_curve.hpp"
+#include "catchlight/response.hpp"
 
 namespace catchlight::app {
 

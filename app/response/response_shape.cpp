@@ -5,7 +5,7 @@
 
 #include "app/response/response_points.hpp"
 #include "catchlight/error.hpp"
-#include "catchlight/response_curve.hpp"
+#include "catchlight/response.hpp"
 #include "catchlight/util/text.hpp"
 
 namespace catchlight::app {

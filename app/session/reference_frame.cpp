@@ -5,7 +5,6 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "app/photometry/exposure.hpp"
-#include "app/photometry/linear_patch.hpp"
 #include "app/session/scene_build.hpp"
 #include "app/support/output_file.hpp"
 #include "catchlight/plate.hpp"
@@ -57,7 +56,7 @@ Image trace_reference_frame(const Frame& frame, const TrackRow& row, const Camer
   CameraModel lens = camera;
   if (settings.lens.distortion == Switch::off) lens.distortion = {};
   Image plate(frame.width_px(), frame.height_px());
-  plate.data = linear_rgb(frame, {0, 0, plate.width, plate.height});
+  plate.data = linear_rgb(frame.rgb({0, 0, plate.width, plate.height}), frame.color());
 
   reference::ReferenceScene scene = traced_scene(settings, row, warn);
   const Exposure exposure = exposure_of(scene, settings, row);

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "catchlight/camera.hpp"
-#include "catchlight/color.hpp"
 #include "catchlight/error.hpp"
+#include "catchlight/response.hpp"
 #include "render/camera/lens.hpp"
 #include "render/gl/read_back.hpp"
 #include "render/gl/shader.hpp"
@@ -126,7 +126,7 @@ void CompositePass::update_uniforms(const FrameView& view, const VirtualLayer& l
   block.modes = {mode_of(view.color), clips_ ? 1 : 0, layer.pixel_glare ? 2 : layer.glare ? 1 : 0, as_light ? 1 : 0};
   block.black = glm::vec4(view.black, 0);
   block.receiver_light = glm::vec4(view.receiver_light, 0);
-  block.changed_code.x = changed_code_;
+  block.code_limits = {changed_code_, static_cast<float>(kClippingCode), 0, 0};
   const Vignetting vignetting = vignetting_of(view);
   block.vignetting = vignetting.terms;
   block.vignetting_at = vignetting.at;

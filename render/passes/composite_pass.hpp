@@ -7,7 +7,7 @@
 #include "catchlight/composite.hpp"
 #include "catchlight/pixel_rect.hpp"
 #include "catchlight/plate.hpp"
-#include "catchlight/response_curve.hpp"
+#include "catchlight/response.hpp"
 #include "render/frame_view.hpp"
 #include "render/gl/render_target.hpp"
 #include "render/passes/glare/glare_pass.hpp"

@@ -10,6 +10,7 @@
 #include "catchlight/image.hpp"
 #include "catchlight/pixel_rect.hpp"
 #include "catchlight/plate.hpp"
+#include "catchlight/response.hpp"
 #include "render/compositor.hpp"
 #include "render/frame_view.hpp"
 #include "render/render_scene.hpp"

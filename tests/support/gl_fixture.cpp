@@ -6,9 +6,9 @@
 #include <glm/gtc/constants.hpp>
 #include <numbers>
 
-#include "catchlight/color.hpp"
 #include "catchlight/image.hpp"
 #include "catchlight/pixel_rect.hpp"
+#include "catchlight/response.hpp"
 
 namespace catchlight::render::test {
 namespace {

@@ -7,9 +7,9 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "catchlight/camera.hpp"
-#include "catchlight/color.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/luma_view.hpp"
+#include "catchlight/response.hpp"
 #include "catchlight/rigid_transform.hpp"
 #include "catchlight/tag.hpp"
 #include "catchlight/track.hpp"

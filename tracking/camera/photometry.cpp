@@ -53,7 +53,7 @@ struct CellMean {
 };
 
 void count_clipped(const LinearPatch& patch, const glm::dvec3& linear, glm::ivec3& clipped) {
-  for (int c = 0; c < 3; ++c) clipped[c] += linear[c] >= patch.clipped_linear[c];
+  for (int c = 0; c < 3; ++c) clipped[c] += linear[c] >= patch.clipping_linear[c];
 }
 
 /// Mean of the nearest pixels to a grid of points in the cell's central half.
@@ -101,6 +101,10 @@ std::optional<glm::dvec3> LinearPatch::at(const glm::dvec2& seen_px) const {
   if (!(x >= 0 && x < rect.width && y >= 0 && y < rect.height)) return std::nullopt;
   const float* value = &rgb[3 * (static_cast<std::size_t>(y) * rect.width + static_cast<std::size_t>(x))];
   return glm::dvec3(value[0], value[1], value[2]);
+}
+
+LinearPatch linear_patch(const Plate& plate, const PlateColor& color) {
+  return {plate.rect, linear_rgb(plate, color), clipping_linear(plate.format, color)};
 }
 
 PixelRect photometry_region(const CameraModel& camera, const RigidTransform& camera_from_tag, const TagTarget& target) {

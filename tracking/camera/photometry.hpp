@@ -2,10 +2,11 @@
 #pragma once
 
 #include <optional>
-#include <span>
+#include <vector>
 
 #include "catchlight/camera.hpp"
 #include "catchlight/pixel_rect.hpp"
+#include "catchlight/plate.hpp"
 #include "catchlight/rigid_transform.hpp"
 #include "catchlight/tag.hpp"
 #include "catchlight/track.hpp"
@@ -15,12 +16,14 @@ namespace catchlight::tracking {
 /// Part of a frame in linear light: RGB float triples, row-major, `rect` says where in the frame. 1 = sensor white.
 struct LinearPatch {
   PixelRect rect;
-  std::span<const float> rgb;
-  glm::dvec3 clipped_linear{0.955};  ///< at or above, the true value is unknown: code 250 of 255, in sRGB
+  std::vector<float> rgb;
+  glm::dvec3 clipping_linear;  ///< light of the clipping level: at or above, the true value is unknown
 
   /// The nearest pixel's; empty outside.
   std::optional<glm::dvec3> at(const glm::dvec2& seen_px) const;
 };
+
+LinearPatch linear_patch(const Plate& plate, const PlateColor& color);
 
 /// Linear RGB of the print's white and black, free of what the lens blurs into each other.
 struct TagPhotometry {

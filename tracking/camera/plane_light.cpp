@@ -58,7 +58,7 @@ Mean mean_of(const LinearPatch& patch, const CameraModel& camera, const RigidTra
     mean.is_whole = rgb.has_value();
     if (!rgb) continue;
     mean.sum += *rgb;
-    for (int c = 0; c < 3; ++c) mean.clipped[c] += (*rgb)[c] >= patch.clipped_linear[c];
+    for (int c = 0; c < 3; ++c) mean.clipped[c] += (*rgb)[c] >= patch.clipping_linear[c];
     ++mean.samples;
   }
   return mean;

@@ -3,7 +3,7 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
-#include "catchlight/color.hpp"
+#include "catchlight/response.hpp"
 #include "tracking/camera/lens.hpp"
 #include "tracking/refinement/edge_fit.hpp"
 

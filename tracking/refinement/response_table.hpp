@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "catchlight/color.hpp"
 #include "catchlight/luma_view.hpp"
+#include "catchlight/response.hpp"
 
 namespace catchlight::tracking {
 

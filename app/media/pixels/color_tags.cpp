@@ -4,7 +4,7 @@ extern "C" {
 #include <libavutil/frame.h>
 }
 
-#include "catchlight/color.hpp"
+#include "catchlight/response.hpp"
 
 namespace catchlight::app {
 namespace {

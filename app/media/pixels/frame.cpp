@@ -10,6 +10,7 @@
 #include "app/media/pixels/pixel_layout.hpp"
 #include "catchlight/color.hpp"
 #include "catchlight/error.hpp"
+#include "catchlight/response.hpp"
 
 extern "C" {
 #include <libavutil/pixdesc.h>

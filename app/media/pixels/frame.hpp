@@ -8,7 +8,7 @@
 #include "catchlight/luma_view.hpp"
 #include "catchlight/pixel_rect.hpp"
 #include "catchlight/plate.hpp"
-#include "catchlight/response_curve.hpp"
+#include "catchlight/response.hpp"
 
 struct AVFrame;
 

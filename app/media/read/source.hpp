@@ -8,7 +8,7 @@
 
 #include "app/media/pixels/frame.hpp"
 #include "catchlight/error.hpp"
-#include "catchlight/response_curve.hpp"
+#include "catchlight/response.hpp"
 
 struct AVStream;
 

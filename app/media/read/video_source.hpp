@@ -4,7 +4,7 @@
 #include "app/media/ffmpeg_handles.hpp"
 #include "app/media/pixels/orientation.hpp"
 #include "app/media/read/source.hpp"
-#include "catchlight/response_curve.hpp"
+#include "catchlight/response.hpp"
 
 namespace catchlight::app {
 

@@ -3,11 +3,11 @@
 #include <limits>
 
 #include "app/media/read/sequence.hpp"
-#include "app/photometry/linear_patch.hpp"
 #include "app/support/output_file.hpp"
 #include "catchlight/composite.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/image.hpp"
+#include "catchlight/plate.hpp"
 #include "render/image/image_io.hpp"
 
 namespace catchlight::app {
@@ -25,7 +25,7 @@ Layers untouched_layers(const Frame& frame) {
   const int width = frame.width_px(), height = frame.height_px();
   Layers layers;
   layers.plate = Image(width, height);
-  layers.plate.data = linear_rgb(frame, {0, 0, width, height});
+  layers.plate.data = linear_rgb(frame.rgb({0, 0, width, height}), frame.color());
   layers.object = filled(width, height, 4, 0.0f);
   layers.shadow = filled(width, height, 3, 1.0f);
   layers.reflection = layers.glare = layers.normal = filled(width, height, 3, 0.0f);

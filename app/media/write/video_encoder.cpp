@@ -5,8 +5,8 @@
 
 #include "app/media/pixels/color_tags.hpp"
 #include "app/media/pixels/convert.hpp"
-#include "catchlight/color.hpp"
 #include "catchlight/error.hpp"
+#include "catchlight/response.hpp"
 
 extern "C" {
 #include <libavutil/opt.h>

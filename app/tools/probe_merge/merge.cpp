@@ -7,9 +7,9 @@
 #include "app/tools/probe_merge/orientation.hpp"
 #include "app/tools/probe_merge/photographs.hpp"
 #include "catchlight/camera.hpp"
-#include "catchlight/color.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/image.hpp"
+#include "catchlight/response.hpp"
 #include "catchlight/util/text.hpp"
 #include "tracking/camera/camera_file.hpp"
 

@@ -8,15 +8,13 @@
 namespace catchlight::app {
 namespace {
 
-constexpr double kClippedCode = 0.985;  ///< of the highest: compression moves clipped codes a little
-
 double smooth_step(double from, double to, double x) {
   const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
   return t * t * (3 - 2 * t);
 }
 
 double window(double code) {
-  return smooth_step(0.01, 0.04, code) * (1 - smooth_step(0.90, kClippedCode, code));
+  return smooth_step(0.01, 0.04, code) * (1 - smooth_step(0.90, kClippingCode, code));
 }
 
 /// What one code says, for any exposure.
@@ -56,7 +54,7 @@ class BracketMerger {
     // Black in all, or clipped in one and black in the next: the longest that is not clipped says most.
     for (const Photograph& photograph : bracket_) {
       const std::size_t at = code(photograph, x, y, channel);
-      if (static_cast<double>(at) < kClippedCode * photograph.max_code())
+      if (static_cast<double>(at) < kClippingCode * photograph.max_code())
         return values_[channel][at].light / photograph.exposure_s;
     }
     clipped = true;

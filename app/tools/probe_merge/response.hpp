@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "app/tools/probe_merge/photographs.hpp"
-#include "catchlight/color.hpp"
 #include "catchlight/image.hpp"
+#include "catchlight/response.hpp"
 
 namespace catchlight::app {
 

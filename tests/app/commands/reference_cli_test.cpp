@@ -4,9 +4,9 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "app/photometry/linear_patch.hpp"
-#include "catchlight/color.hpp"
 #include "catchlight/image.hpp"
+#include "catchlight/plate.hpp"
+#include "catchlight/response.hpp"
 #include "render/image/image_io.hpp"
 #include "tests/support/run_command.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -63,8 +63,7 @@ TEST_F(ReferenceCommand, ExrIsExposedLinearLight) {
   const cv::Mat coded = cv::imread(folder_.path("a.png"));
   const Image linear = render::read_exr(folder_.path("a.exr"));
   for (const int x : {10, 320, 600})
-    EXPECT_NEAR(255 * app::code_from_linear(TransferFunction::srgb, linear.pixel(x, 240)[0]), coded.at<cv::Vec3b>(240, x)[2],
-                0.6);
+    EXPECT_NEAR(255 * code_from_linear(TransferFunction::srgb, linear.pixel(x, 240)[0]), coded.at<cv::Vec3b>(240, x)[2], 0.6);
 }
 
 TEST_F(ReferenceCommand, FrameThatIsNotThereSaysHowManyThereAre) {
@@ -105,8 +104,8 @@ TEST(CodeFromLinear, IsTheInverseOfLinearFromCode) {
   for (const TransferFunction transfer : {TransferFunction::srgb, TransferFunction::linear, TransferFunction::gamma22,
                                           TransferFunction::gamma28, TransferFunction::pq, TransferFunction::hlg})
     for (const double code : {0.0, 0.01, 0.04, 0.2, 0.5, 0.75, 1.0})
-      EXPECT_NEAR(app::code_from_linear(transfer, linear_from_code(transfer, code)), code, 2e-6) << static_cast<int>(transfer);
-  EXPECT_EQ(app::code_from_linear(TransferFunction::pq, -1), app::code_from_linear(TransferFunction::pq, 0));
+      EXPECT_NEAR(code_from_linear(transfer, linear_from_code(transfer, code)), code, 2e-6) << static_cast<int>(transfer);
+  EXPECT_EQ(code_from_linear(TransferFunction::pq, -1), code_from_linear(TransferFunction::pq, 0));
 }
 
 }  // namespace

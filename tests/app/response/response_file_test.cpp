@@ -1,9 +1,8 @@
 // Camera responses from files, against the curves they were made of.
 #include "app/response/response_file.hpp"
 #include "app/response/response_points.hpp"
-#include "catchlight/color.hpp"
 #include "catchlight/error.hpp"
-#include "catchlight/response_curve.hpp"
+#include "catchlight/response.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>

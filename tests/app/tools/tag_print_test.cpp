@@ -1,9 +1,9 @@
 // What is printed, read back by parsers and detectors that know nothing of how it was laid out.
 #include "app/tools/tag_print/writers.hpp"
 #include "catchlight/camera.hpp"
-#include "catchlight/color.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/luma_view.hpp"
+#include "catchlight/response.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tracking/camera/camera_file.hpp"
 #include "tracking/detection/detector.hpp"

@@ -69,7 +69,7 @@ TEST_F(ShaderGl, UniformBlocksLieAsCppLaysThem) {
   expect_layout(
       composite, "CompositeUniforms", sizeof(CompositeUniforms),
       {MEMBER(CompositeUniforms, output_rect), MEMBER(CompositeUniforms, virtual_rect), MEMBER(CompositeUniforms, modes),
-       MEMBER(CompositeUniforms, black), MEMBER(CompositeUniforms, changed_code), MEMBER(CompositeUniforms, glare_from_frame)});
+       MEMBER(CompositeUniforms, black), MEMBER(CompositeUniforms, code_limits), MEMBER(CompositeUniforms, glare_from_frame)});
 }
 
 /// A folder with all embedded shaders, for one test.

@@ -5,9 +5,9 @@
 #include <random>
 
 #include "catchlight/camera.hpp"
-#include "catchlight/color.hpp"
 #include "catchlight/composite.hpp"
 #include "catchlight/plate.hpp"
+#include "catchlight/response.hpp"
 #include "render/compositor.hpp"
 #include "render/frame_view.hpp"
 #include "render/render_scene.hpp"

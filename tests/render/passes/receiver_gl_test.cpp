@@ -4,6 +4,7 @@
 #include "catchlight/composite.hpp"
 #include "catchlight/pixel_rect.hpp"
 #include "catchlight/plate.hpp"
+#include "catchlight/response.hpp"
 #include "render/compositor.hpp"
 #include "render/frame_view.hpp"
 #include "render/render_scene.hpp"
@@ -68,6 +69,52 @@ TEST_F(ReceiverGl, AClippedPlateIsAsBrightAsTheReceiverMustBe) {
   view.receiver_light = glm::vec3(0);
   Compositor compositor(receiver_scene([](double, double) { return 0.4; }), without_glare());
   EXPECT_NEAR(pixel_at(compositor.render(view, plate_u8(255)), 80, 60).x, 0.4, 1e-3) << "not known";
+}
+
+/// A camera's logarithmic curve: eight stops below white and three above.
+std::shared_ptr<const ResponseCurve> logarithmic_curve() {
+  ResponseCurve::Tables tables;
+  for (auto& table : tables)
+    for (int code = 0; code < 256; ++code) table.push_back(static_cast<float>(std::exp2(11.0 * code / 255 - 8) - std::exp2(-8)));
+  return std::make_shared<ResponseCurve>(tables);
+}
+
+TEST_F(ReceiverGl, LightAboveReferenceWhiteIsNotClippedWhereCodesGoOn) {
+  // Only the last codes hide light. Half again as bright as white is what it is in PQ, HLG and a logarithmic curve, however much
+  // brighter white paper would be there: a tenth of it in shadow is a tenth less, and no bright rim.
+  FrameView view = linear_view_from_above();
+  view.receiver_light = glm::vec3(3);
+  Compositor compositor(receiver_scene([](double, double) { return 0.9; }), without_glare());
+  const std::vector<CameraResponse> responses{
+      {TransferFunction::pq, {}}, {TransferFunction::hlg, {}}, {TransferFunction::srgb, logarithmic_curve()}};
+  for (std::size_t i = 0; i < responses.size(); ++i) {
+    static_cast<CameraResponse&>(view.color) = responses[i];
+    const int code = static_cast<int>(std::lround(255 * code_from_linear(responses[i], 1.5, 0)));
+    ASSERT_LT(code, 250) << i;
+    const double shown = linear_from_code(responses[i], code / 255.0, 0);
+    const glm::vec4 pixel = pixel_at(compositor.render(view, plate_u8(code)), 80, 60);
+    EXPECT_NEAR(linear_from_code(responses[i], pixel.x, 0) / shown, 0.9, 2e-3) << i;
+  }
+}
+
+TEST_F(ReceiverGl, ClippedIsACodeWhateverItsLight) {
+  // As far above the clipping level as rounding to eight bits leaves it, and as far below.
+  FrameView view = linear_view_from_above();
+  Compositor compositor(receiver_scene([](double, double) { return 0.5; }), without_glare());
+  for (const TransferFunction transfer : {TransferFunction::srgb, TransferFunction::linear, TransferFunction::hlg}) {
+    view.color.transfer = transfer;
+    for (const int code : {251, 252}) {
+      const double shown = linear_from_code(transfer, code / 255.0);
+      view.receiver_light = glm::vec3(static_cast<float>(1.5 * shown));
+      const double left = linear_from_code(transfer, pixel_at(compositor.render(view, plate_u8(code)), 80, 60).x) / shown;
+      EXPECT_NEAR(left, code < 255 * kClippingCode ? 0.5 : 0.75, 1e-3) << code;
+    }
+    const PlateReader floats = plate_f32([](int, int) { return glm::vec3(1); });
+    view.receiver_light = glm::vec3(10);
+    EXPECT_NEAR(linear_from_code(transfer, pixel_at(compositor.render(view, floats), 80, 60).x) / linear_from_code(transfer, 1.0),
+                0.5, 1e-3)
+        << "float codes go on";
+  }
 }
 
 TEST_F(ReceiverGl, RatiosThatMakeNoSenseAreBounded) {

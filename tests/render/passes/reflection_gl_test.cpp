@@ -1,9 +1,9 @@
 // Reflections against a ray tracer of one sphere, and the directions they come from.
 #include <cmath>
 
-#include "catchlight/color.hpp"
 #include "catchlight/composite.hpp"
 #include "catchlight/plate.hpp"
+#include "catchlight/response.hpp"
 #include "catchlight/rigid_transform.hpp"
 #include "render/compositor.hpp"
 #include "render/frame_view.hpp"

@@ -1,9 +1,8 @@
 // Footage coded by a measured curve: the shader's light and codes against the curve's own on the CPU.
 #include <cmath>
 
-#include "catchlight/color.hpp"
 #include "catchlight/composite.hpp"
-#include "catchlight/response_curve.hpp"
+#include "catchlight/response.hpp"
 #include "render/compositor.hpp"
 #include "render/frame_view.hpp"
 #include "render/render_scene.hpp"

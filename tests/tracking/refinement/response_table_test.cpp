@@ -1,7 +1,7 @@
 // The table against the transfer functions themselves.
 #include "tracking/refinement/response_table.hpp"
-#include "catchlight/color.hpp"
 #include "catchlight/luma_view.hpp"
+#include "catchlight/response.hpp"
 
 #include <gtest/gtest.h>
 

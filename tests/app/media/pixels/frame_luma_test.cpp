@@ -1,8 +1,8 @@
 // Frame::luma() and Frame::color().
 #include <array>
 
-#include "catchlight/color.hpp"
 #include "catchlight/luma_view.hpp"
+#include "catchlight/response.hpp"
 #include "tests/support/media_fixture.hpp"
 
 namespace catchlight::app::testing {

@@ -1,8 +1,8 @@
 // Numbered image files, in and out.
 #include "app/media/read/sequence.hpp"
-#include "catchlight/color.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/plate.hpp"
+#include "catchlight/response.hpp"
 #include "tests/support/media_fixture.hpp"
 
 #include <gmock/gmock.h>

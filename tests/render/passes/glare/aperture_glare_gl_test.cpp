@@ -1,11 +1,11 @@
 // The glare of an aperture in the composite: the same as computed on the CPU from the object's layer.
 #include <cmath>
 
-#include "catchlight/color.hpp"
 #include "catchlight/composite.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/image.hpp"
 #include "catchlight/plate.hpp"
+#include "catchlight/response.hpp"
 #include "render/compositor.hpp"
 #include "render/frame_view.hpp"
 #include "render/glare/fft_glare.hpp"

@@ -1,8 +1,8 @@
 // Glare against the convolutions it approximates, and what must not change it.
-#include "catchlight/color.hpp"
 #include "catchlight/composite.hpp"
 #include "catchlight/image.hpp"
 #include "catchlight/plate.hpp"
+#include "catchlight/response.hpp"
 #include "render/compositor.hpp"
 #include "render/frame_view.hpp"
 #include "render/passes/glare/glare_pass.hpp"
