@@ -10,6 +10,7 @@
 #include "catchlight/camera.hpp"
 #include "catchlight/error.hpp"
 #include "tracking/camera/camera_file.hpp"
+#include "tracking/track_file.hpp"
 
 namespace catchlight::app {
 
@@ -25,7 +26,7 @@ struct Options {
 /// Recorded footage is tracked as a whole before its first frame is drawn.
 std::unique_ptr<FrameTrack> open_track(const Options& options, const Recording& recording, const CameraModel& camera,
                                        bool is_live, const FrameRange& range, Context& context, Report& report) {
-  if (!options.track_in.empty()) return make_recorded_track(read_track_file(options.track_in), camera, recording.scene);
+  if (!options.track_in.empty()) return make_recorded_track(tracking::read_track_file(options.track_in), camera, recording.scene);
   if (options.causal || is_live) return make_tag_track(camera, recording.scene);
   // Adapting exposure needs the poses of all that comes before, too.
   const FrameRange posed = tone_settings(recording.scene).enabled ? FrameRange{.end = range.end} : range;

@@ -15,6 +15,7 @@
 #include "catchlight/track.hpp"
 #include "catchlight/util/text.hpp"
 #include "render/image/image_io.hpp"
+#include "tracking/track_file.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -56,7 +57,7 @@ TrackedFrame tracked_frame(const Options& options, const Recording& recording, c
     throw UsageError(recording.footage + ": a reference needs recorded footage, not a camera or stream");
   std::vector<TrackRow> rows;
   if (!options.track_in.empty()) {
-    rows = read_track_file(options.track_in);
+    rows = tracking::read_track_file(options.track_in);
   } else {
     Report report;
     rows = solve_track(*open_footage(recording), camera, recording.scene, {options.frame, options.frame + 1}, log, report).rows;

@@ -6,6 +6,7 @@
 #include "app/support/output_file.hpp"
 #include "app/track_export/track_export.hpp"
 #include "catchlight/camera.hpp"
+#include "tracking/track_file.hpp"
 
 namespace catchlight::app {
 
@@ -20,7 +21,7 @@ struct Options {
 OverlayResult tracked(const Options& options, const Recording& recording, const CameraModel& camera, MediaSource& source,
                       const FrameRange& range, Context& context, Report& report) {
   if (!options.track_in.empty()) {
-    const auto known = make_recorded_track(read_track_file(options.track_in), camera, recording.scene);
+    const auto known = make_recorded_track(tracking::read_track_file(options.track_in), camera, recording.scene);
     return run_track(source, *known, range, context.log, report);
   }
   if (options.causal || source.info().is_live)

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "app/media/pixels/frame.hpp"
-#include "app/track_export/track_file.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/composite.hpp"
 #include "catchlight/track.hpp"

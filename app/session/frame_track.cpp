@@ -2,11 +2,11 @@
 
 #include <map>
 
-#include "app/photometry/exposure_track.hpp"
-#include "app/photometry/lens_blur.hpp"
-#include "app/photometry/lens_noise.hpp"
 #include "catchlight/rigid_transform.hpp"
 #include "catchlight/tag.hpp"
+#include "tracking/camera/blur.hpp"
+#include "tracking/camera/exposure_match.hpp"
+#include "tracking/camera/grain.hpp"
 #include "tracking/observation.hpp"
 #include "tracking/pose/planar_pose.hpp"
 #include "tracking/pose/pose_covariance.hpp"
@@ -47,11 +47,25 @@ void set_appearance(TrackRow& row, const std::optional<tracking::TagAppearance>&
   row.noise_codes = appearance->noise_codes;
 }
 
-TrackRow row_of(const Frame& frame) {
+/// What one frame alone shows, before its exposure, noise and blur are known.
+TrackRow row_of(const Frame& frame, const tracking::TagObservation& seen, const CameraModel& camera, const TagTarget& target) {
   TrackRow row;
   row.frame = frame.number();
   row.time_s = frame.time_s();
+  set_pose(row, seen.state, seen.camera_from_tag, camera, target);
+  row.corner_sigma_px = seen.corner_sigma_px;
+  row.ambiguity = seen.ambiguity;
+  set_appearance(row, seen.appearance);
   return row;
+}
+
+tracking::ExposureMatch exposure_match(const CameraModel& camera, const SceneSettings& scene) {
+  return {camera, scene.tag.target(), {scene.tag.white_albedo, scene.tag.black_albedo}};
+}
+
+/// Only where the virtual layer follows the footage's exposure does it matter that it could not be read.
+std::optional<std::string> exposure_warning(const tracking::ExposureCounts& counts, const SceneSettings::Exposure& settings) {
+  return settings.mode == "match" ? counts.warning() : std::nullopt;
 }
 
 class TagTrack : public FrameTrack {
@@ -59,40 +73,39 @@ class TagTrack : public FrameTrack {
   TagTrack(const CameraModel& camera, const SceneSettings& scene)
       : camera_(camera),
         target_(scene.tag.target()),
+        settings_(scene.exposure),
         tracker_(camera, target_, scene.tag.tracker_options()),
-        exposure_(camera, scene),
-        noise_(camera, target_),
-        lens_blur_(camera, target_.size_m) {}
+        exposure_(exposure_match(camera, scene)),
+        grain_(camera, target_),
+        blur_(camera, target_.size_m) {}
 
   TrackRow row(const Frame& frame) override {
-    const tracking::TagObservation seen = tracker_.track(frame.luma(), frame.time_s());
-    TrackRow row = row_of(frame);
-    set_pose(row, seen.state, seen.camera_from_tag, camera_, target_);
-    row.corner_sigma_px = seen.corner_sigma_px;
-    row.ambiguity = seen.ambiguity;
-    set_appearance(row, seen.appearance);
+    TrackRow row = row_of(frame, tracker_.track(frame.luma(), frame.time_s()), camera_, target_);
     exposure_.add(frame, row);
-    noise_.add(frame, row);
-    row.noise = noise_.model();
-    lens_blur_.add(row);
+    exposure_.set_latest(row);
+    grain_.add(frame, row);
+    row.noise = grain_.model();
+    blur_.add(row);
     return row;
   }
 
   bool is_tracking() const override { return true; }
-  std::optional<std::string> warning() const override { return exposure_.warning(); }
+  std::optional<std::string> warning() const override { return exposure_warning(exposure_.counts(), settings_); }
 
  private:
   CameraModel camera_;
   TagTarget target_;
+  SceneSettings::Exposure settings_;
   tracking::Tracker tracker_;
-  ExposureTrack exposure_;
-  NoiseMeter noise_;
-  LensBlurMeter lens_blur_;
+  tracking::ExposureMatch exposure_;
+  tracking::GrainMeter grain_;
+  tracking::BlurMeter blur_;
 };
 
 class RecordedTrack : public FrameTrack {
  public:
-  RecordedTrack(std::vector<TrackRow> rows, const CameraModel& camera, const SceneSettings& scene) : exposure_(camera, scene) {
+  RecordedTrack(std::vector<TrackRow> rows, const CameraModel& camera, const SceneSettings& scene)
+      : settings_(scene.exposure), exposure_(exposure_match(camera, scene)) {
     for (TrackRow& row : rows) rows_.emplace(row.frame, std::move(row));
   }
 
@@ -101,16 +114,19 @@ class RecordedTrack : public FrameTrack {
     if (const auto found = rows_.find(frame.number()); found != rows_.end()) row = found->second;
     row.frame = frame.number();
     row.time_s = frame.time_s();
-    if (!row.has_exposure) exposure_.add(frame, row);
+    if (row.has_exposure) return row;
+    exposure_.add(frame, row);
+    exposure_.set_latest(row);
     return row;
   }
 
   bool is_tracking() const override { return false; }
-  std::optional<std::string> warning() const override { return exposure_.warning(); }
+  std::optional<std::string> warning() const override { return exposure_warning(exposure_.counts(), settings_); }
 
  private:
   std::map<std::int64_t, TrackRow> rows_;
-  ExposureTrack exposure_;
+  SceneSettings::Exposure settings_;
+  tracking::ExposureMatch exposure_;
 };
 
 }  // namespace
@@ -118,9 +134,10 @@ class RecordedTrack : public FrameTrack {
 struct PathTrack::Impl {
   CameraModel camera;
   TagTarget target;
+  SceneSettings::Exposure settings;
   tracking::RecordedPath path;
-  ExposurePath exposure;
-  NoiseMeter noise;
+  tracking::ExposureMatch exposure;
+  tracking::GrainMeter grain;
   std::vector<TrackRow> rows;
 };
 
@@ -128,44 +145,42 @@ PathTrack::PathTrack(const CameraModel& camera, const SceneSettings& scene) {
   const TagTarget target = scene.tag.target();
   impl_ = std::make_unique<Impl>(Impl{camera,
                                       target,
+                                      scene.exposure,
                                       tracking::RecordedPath(camera, target, scene.tag.tracker_options()),
-                                      ExposurePath(camera, scene),
-                                      NoiseMeter(camera, target),
+                                      exposure_match(camera, scene),
+                                      tracking::GrainMeter(camera, target),
                                       {}});
 }
 
 PathTrack::~PathTrack() = default;
 
 void PathTrack::add(const Frame& frame) {
-  const tracking::TagObservation& seen = impl_->path.add(frame.luma(), frame.time_s());
-  TrackRow row = row_of(frame);
-  set_pose(row, seen.state, seen.camera_from_tag, impl_->camera, impl_->target);
-  set_appearance(row, seen.appearance);
+  const TrackRow row = row_of(frame, impl_->path.add(frame.luma(), frame.time_s()), impl_->camera, impl_->target);
   impl_->exposure.add(frame, row);
-  impl_->noise.add(frame, row);
+  impl_->grain.add(frame, row);
   impl_->rows.push_back(row);
 }
 
 std::vector<TrackRow> PathTrack::solve() const {
   std::vector<TrackRow> rows = impl_->rows;
   const std::vector<tracking::SolvedPose> poses = impl_->path.solve();
+  const NoiseModel noise = impl_->grain.model();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     set_pose(rows[i], poses[i].state, poses[i].camera_from_tag, impl_->camera, impl_->target);
     rows[i].ambiguity = poses[i].ambiguity;
-    if (rows[i].found)
-      rows[i].corner_sigma_px =
-          tracking::corner_sigma_px(impl_->camera, poses[i].camera_from_tag, poses[i].covariance, impl_->target.size_m);
+    rows[i].corner_sigma_px = rows[i].found ? tracking::corner_sigma_px(impl_->camera, poses[i].camera_from_tag,
+                                                                        poses[i].covariance, impl_->target.size_m)
+                                            : 0;
     set_appearance(rows[i], impl_->path.appearances()[i]);
+    rows[i].noise = noise;
   }
-  impl_->exposure.fill_in(rows);
-  const NoiseModel noise = impl_->noise.model();
-  for (TrackRow& row : rows) row.noise = noise;
-  measure_lens_blur(rows, impl_->camera, impl_->target.size_m);
+  impl_->exposure.set_all(rows);
+  tracking::measure_blur(rows, impl_->camera, impl_->target.size_m);
   return rows;
 }
 
 std::optional<std::string> PathTrack::warning(const std::vector<TrackRow>& rows) const {
-  return impl_->exposure.warning(rows);
+  return exposure_warning(impl_->exposure.counts(rows), impl_->settings);
 }
 
 std::unique_ptr<FrameTrack> make_tag_track(const CameraModel& camera, const SceneSettings& scene) {

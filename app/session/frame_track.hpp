@@ -8,7 +8,6 @@
 
 #include "app/media/pixels/frame.hpp"
 #include "app/settings/scene_settings.hpp"
-#include "app/track_export/track_file.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/track.hpp"
 
@@ -40,7 +39,7 @@ class PathTrack {
   /// Frames come in order, none left out.
   void add(const Frame& frame);
 
-  /// One row a frame. The exposure is as app/photometry/exposure_track.hpp says of recorded footage.
+  /// One row a frame. The exposure is as tracking/camera/exposure_match.hpp says of recorded footage.
   std::vector<TrackRow> solve() const;
 
   /// What the user should know of the rows that solve() gave, if anything.

@@ -7,8 +7,8 @@
 #include <iterator>
 
 #include "app/media/pixels/full_color.hpp"
-#include "app/photometry/lens_view.hpp"
 #include "app/session/debug_drawing.hpp"
+#include "app/session/frame_view.hpp"
 #include "app/settings/look.hpp"
 #include "app/support/progress.hpp"
 #include "catchlight/composite.hpp"

@@ -4,7 +4,7 @@
 #include <glm/gtc/constants.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "app/photometry/exposure.hpp"
+#include "app/session/frame_view.hpp"
 #include "app/session/scene_build.hpp"
 #include "app/support/output_file.hpp"
 #include "catchlight/plate.hpp"

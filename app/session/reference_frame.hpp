@@ -3,7 +3,6 @@
 
 #include "app/media/pixels/frame.hpp"
 #include "app/settings/scene_settings.hpp"
-#include "app/track_export/track_file.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/image.hpp"

@@ -1,7 +1,6 @@
 #include "app/session/stage.hpp"
 
-#include "app/photometry/exposure.hpp"
-#include "app/photometry/lens_view.hpp"
+#include "app/session/frame_view.hpp"
 #include "app/settings/look.hpp"
 #include "app/settings/parameters.hpp"
 #include "app/support/progress.hpp"

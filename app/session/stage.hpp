@@ -8,7 +8,6 @@
 #include "app/session/report.hpp"
 #include "app/session/scene_build.hpp"
 #include "app/support/log.hpp"
-#include "app/track_export/track_file.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/composite.hpp"
 #include "catchlight/track.hpp"

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "app/settings/scene_settings.hpp"
-#include "app/track_export/track_file.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/track.hpp"
 

@@ -8,6 +8,7 @@
 #include "app/support/output_file.hpp"
 #include "app/track_export/formats.hpp"
 #include "catchlight/util/text.hpp"
+#include "tracking/track_file.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -22,7 +23,7 @@ struct Format {
 
 const std::map<std::string, Format>& formats() {
   static const std::map<std::string, Format> table{
-      {".csv", {[](const Rows& rows, const Shot&) { return track_file_text(rows); }, true}},
+      {".csv", {[](const Rows& rows, const Shot&) { return tracking::track_file_text(rows); }, true}},
       {".jsonl", {[](const Rows& rows, const Shot&) { return json_lines_text(rows); }, true}},
       {".tum", {[](const Rows& rows, const Shot&) { return tum_text(rows); }}},
       {".txt", {[](const Rows& rows, const Shot&) { return tum_text(rows); }}},

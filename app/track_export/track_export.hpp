@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "app/track_export/shot.hpp"
-#include "app/track_export/track_file.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/track.hpp"
 

@@ -1,8 +1,8 @@
-#include "app/media/pixels/code_planes.hpp"
-
 #include "app/media/pixels/color_tags.hpp"
+#include "app/media/pixels/frame.hpp"
 #include "app/media/pixels/pixel_layout.hpp"
 #include "catchlight/color.hpp"
+#include "catchlight/frame_image.hpp"
 
 extern "C" {
 #include <libavutil/frame.h>
@@ -65,8 +65,8 @@ class PlaneReader {
 
 }  // namespace
 
-CodePlanes code_planes(const Frame& frame, const PixelRect& rect) {
-  const AVFrame& picture = frame.picture();
+CodePlanes Frame::code_planes(const PixelRect& rect) const {
+  const AVFrame& picture = *picture_;
   const PixelLayout layout = pixel_layout(picture.format).value();
   const PixelRect inside = intersect(rect, {0, 0, picture.width, picture.height});
   const int sx = layout.chroma_shift_x, sy = layout.chroma_shift_y;

@@ -5,9 +5,7 @@
 #include <memory>
 
 #include "catchlight/composite.hpp"
-#include "catchlight/luma_view.hpp"
-#include "catchlight/pixel_rect.hpp"
-#include "catchlight/plate.hpp"
+#include "catchlight/frame_image.hpp"
 #include "catchlight/response.hpp"
 
 struct AVFrame;
@@ -15,7 +13,7 @@ struct AVFrame;
 namespace catchlight::app {
 
 /// Shares the decoder's samples; copies are cheap. Everything is in display orientation (rotation metadata already applied).
-class Frame {
+class Frame : public FrameImage {
  public:
   /// `response` stands in for what the stream declares.
   Frame(std::shared_ptr<const AVFrame> picture, std::int64_t number, double time_s,
@@ -30,14 +28,16 @@ class Frame {
 
   /// The luma plane as it is where it is 8-bit YUV or grey; else made once: deeper planes rounded to 8 bits, RGB weighted by Rec.
   /// 709 on codes, float linear frames coded as sRGB first. Where the response is a curve, its light is coded as sRGB.
-  LumaView luma() const;
+  LumaView luma() const override;
 
   /// RGB codes of a part of the frame, by swscale with the stream's own matrix and range, accurate rounding and full chroma
   /// interpolation: the same values as converting the whole frame.
-  Plate rgb(const PixelRect& rect) const;
+  Plate rgb(const PixelRect& rect) const override;
+
+  CodePlanes code_planes(const PixelRect& rect) const override;
 
   /// The primaries that the stream declares, and its transfer function or the response given (unspecified: sRGB, Rec. 709).
-  PlateColor color() const;
+  PlateColor color() const override;
 
   /// log2 of the pixels across and down that share a colour sample: (1, 1) in 4:2:0, (0, 0) where every pixel has its own.
   glm::ivec2 color_block_shift() const;

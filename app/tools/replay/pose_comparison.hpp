@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "app/track_export/track_file.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/track.hpp"
 

@@ -12,6 +12,7 @@
 #include "catchlight/composite.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/plate.hpp"
+#include "tracking/track_file.hpp"
 
 namespace catchlight::app {
 
@@ -135,7 +136,7 @@ ReplayResult replay_recording(const std::string& location, const RecordingOverri
   ReplayResult result;
   result.name = recording.name;
   if (recording.poses_csv) {
-    result.pose = compare_poses(overlaid.rows, read_track_file(*recording.poses_csv), camera, scene.tag.size_m);
+    result.pose = compare_poses(overlaid.rows, tracking::read_track_file(*recording.poses_csv), camera, scene.tag.size_m);
     add_figures(*result.pose, result.figures);
   }
   if (!output.comparisons.empty()) {

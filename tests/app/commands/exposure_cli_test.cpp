@@ -9,7 +9,6 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "app/track_export/track_file.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/color.hpp"
 #include "catchlight/track.hpp"
@@ -18,6 +17,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tracking/camera/camera_file.hpp"
 #include "tracking/camera/lens.hpp"
+#include "tracking/track_file.hpp"
 
 namespace catchlight::tests {
 namespace {
@@ -111,7 +111,7 @@ class ExposureCommand : public ::testing::Test {
   std::vector<cv::Point> object_pixels(const std::string& name, int frame) const {
     const CameraModel camera = tracking::read_camera_file(folder_.path("still/camera.yaml"));
     TrackRow row;
-    for (const TrackRow& other : app::read_track_file(folder_.path(name + ".csv")))
+    for (const TrackRow& other : tracking::read_track_file(folder_.path(name + ".csv")))
       if (other.frame == frame) row = other;
     EXPECT_TRUE(row.found) << frame;
     const glm::dmat3 stood_up = glm::dmat3(glm::rotate(glm::dmat4(1), glm::radians(12.0), glm::dvec3(0, 0, 1)) *

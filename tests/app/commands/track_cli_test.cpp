@@ -3,11 +3,11 @@
 
 #include <cstdlib>
 
-#include "app/track_export/track_file.hpp"
 #include "catchlight/track.hpp"
 #include "tests/support/pose_error.hpp"
 #include "tests/support/run_command.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tracking/track_file.hpp"
 
 namespace catchlight::tests {
 namespace {
@@ -38,7 +38,7 @@ class TrackCommand : public ::testing::Test {
   std::vector<TrackRow> tracked(const std::string& footage, const std::string& name, std::vector<std::string> more = {}) {
     const CommandResult result = track(footage, folder_.path(name), std::move(more));
     EXPECT_EQ(result.exit_code, 0) << result.error;
-    return app::read_track_file(folder_.path(name));
+    return tracking::read_track_file(folder_.path(name));
   }
 
   TemporaryFolder folder_;
@@ -95,7 +95,7 @@ TEST_F(TrackCommand, FramesBeforeTheDamageAreSolved) {
   const CommandResult result = track(video, folder_.path("damaged.csv"));
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.error, HasSubstr("video.mkv"));
-  const auto rows = app::read_track_file(folder_.path("damaged.csv"));
+  const auto rows = tracking::read_track_file(folder_.path("damaged.csv"));
   ASSERT_GE(rows.size(), 2u);
   ASSERT_LT(rows.size(), 12u);
   for (std::size_t i = 0; i < rows.size(); ++i) {

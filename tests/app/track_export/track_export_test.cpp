@@ -4,6 +4,7 @@
 #include "catchlight/error.hpp"
 #include "catchlight/track.hpp"
 #include "tests/support/orbit_track.hpp"
+#include "tracking/track_file.hpp"
 
 #include <gmock/gmock.h>
 
@@ -208,7 +209,7 @@ TEST(JsonLinesTrack, NumbersSurviveAndWhatWasNotMeasuredIsNull) {
 // --- all of them ------------------------------------------------------------------------------------------------------
 
 TEST(TrackExport, CsvIsTheTrackFile) {
-  EXPECT_EQ(written("track.csv", orbit(), shot()), track_file_text(orbit()));
+  EXPECT_EQ(written("track.csv", orbit(), shot()), tracking::track_file_text(orbit()));
 }
 
 TEST(TrackExport, UnknownExtensionNamesThoseThereAre) {

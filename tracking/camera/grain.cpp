@@ -1,4 +1,4 @@
-#include "app/photometry/lens_noise.hpp"
+#include "tracking/camera/grain.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,6 @@
 
 #include "catchlight/color.hpp"
 #include "catchlight/pixel_rect.hpp"
-#include "catchlight/plate.hpp"
 #include "catchlight/response.hpp"
 #include "catchlight/rigid_transform.hpp"
 #include "catchlight/util/statistics.hpp"
@@ -17,7 +16,7 @@
 #include "tracking/refinement/tag_pattern.hpp"
 #include "tracking/refinement/tag_view.hpp"
 
-namespace catchlight::app {
+namespace catchlight::tracking {
 namespace {
 
 constexpr double kReachSigmas = 3, kReachPx = 1;  ///< how far an edge's light reaches: blur, and the chroma's own filter
@@ -129,8 +128,8 @@ glm::dvec2 line(double w, double wi, double wii, double wv, double wiv) {
 /// By cell: what of the print, and of the sheet that may go on around it, is far enough from every edge of the print.
 std::vector<CellBlocks> cells_of(const CodePlanes& planes, const CameraModel& camera, const RigidTransform& camera_from_tag,
                                  const BundledTag& tag, const Covariance2& blur_px2) {
-  const tracking::TagPattern pattern(tracking::tag_layout(tag.family, tag.id));
-  const tracking::TagView view(camera, camera_from_tag, tag.size_m, pattern.cells_across());
+  const TagPattern pattern(tag_layout(tag.family, tag.id));
+  const TagView view(camera, camera_from_tag, tag.size_m, pattern.cells_across());
   const int margin = pattern.margin() + kPaperCells, side = pattern.cells_across() + 2 * margin;
   const glm::dvec2 block(1 << planes.block_shift.x, 1 << planes.block_shift.y);
   const double reach_px =
@@ -141,11 +140,11 @@ std::vector<CellBlocks> cells_of(const CodePlanes& planes, const CameraModel& ca
   for (int y = 0; y < planes.rect.height >> planes.block_shift.y; y += step)
     for (int x = 0; x < planes.blocks_across(); x += step) {
       const glm::dvec2 at = glm::dvec2(planes.rect.x, planes.rect.y) + glm::dvec2(x, y) * block + 0.5 * (block - 1.0);
-      const auto place = tracking::ideal_pixel(camera, at);
+      const auto place = ideal_pixel(camera, at);
       const auto point = place ? view.at(place->ideal_px) : std::nullopt;
       if (!point) continue;
-      const Covariance2 reach = tracking::in_cells({reach_px2, 0, reach_px2}, point->cell_per_px * place->ideal_per_seen);
-      using enum tracking::TagPattern::Neighbourhood;
+      const Covariance2 reach = in_cells({reach_px2, 0, reach_px2}, point->cell_per_px * place->ideal_per_seen);
+      using enum TagPattern::Neighbourhood;
       if (pattern.around(point->cell, {std::sqrt(reach.xx), std::sqrt(reach.yy)}) != plateau) continue;
       const glm::ivec2 cell = glm::ivec2(glm::floor(point->cell)) + margin;
       if (cell.x < 0 || cell.y < 0 || cell.x >= side || cell.y >= side) continue;
@@ -170,10 +169,10 @@ glm::dmat3 of_color(const glm::dmat3& covariance) {
 
 /// The pixels of print and sheet.
 PixelRect region_of(const CameraModel& camera, const RigidTransform& camera_from_tag, const BundledTag& tag) {
-  const tracking::TagLayout layout = tracking::tag_layout(tag.family, tag.id);
+  const TagLayout layout = tag_layout(tag.family, tag.id);
   BundledTag larger = tag;
   larger.size_m *= static_cast<double>(layout.side() + 2 * kPaperCells) / layout.side();
-  return tracking::photometry_region(camera, camera_from_tag, TagTarget{larger, {}});
+  return photometry_region(camera, camera_from_tag, TagTarget{larger, {}});
 }
 
 FlatPatch flat_of(CellBlocks& cell, const glm::dmat3& rounding, const PlateColor& response) {
@@ -208,14 +207,14 @@ FlatPatch flat_of(CellBlocks& cell, const glm::dmat3& rounding, const PlateColor
 
 }  // namespace
 
-void NoiseMeter::add(const Frame& frame, const TrackRow& row) {
+void GrainMeter::add(const FrameImage& frame, const TrackRow& row) {
   if (row.state != TrackState::tracking || !(row.noise_codes > 0)) return;
   for (const BundledTag& tag : target_.tags()) add_tag(frame, row, tag);
 }
 
-void NoiseMeter::add_tag(const Frame& frame, const TrackRow& row, const BundledTag& tag) {
+void GrainMeter::add_tag(const FrameImage& frame, const TrackRow& row, const BundledTag& tag) {
   const RigidTransform camera_from_tag = row.camera_from_tag * tag.tag_from_this;
-  const CodePlanes planes = code_planes(frame, region_of(camera_, camera_from_tag, tag));
+  const CodePlanes planes = frame.code_planes(region_of(camera_, camera_from_tag, tag));
   if (planes.rect.empty()) return;
   std::vector<FlatPatch> flats;
   for (CellBlocks& cell : cells_of(planes, camera_, camera_from_tag, tag, row.blur_px2))
@@ -233,7 +232,7 @@ void NoiseMeter::add_tag(const Frame& frame, const TrackRow& row, const BundledT
   add_alike(white, paper);
 }
 
-void NoiseMeter::add_alike(std::span<const FlatPatch> flats, std::span<const FlatPatch> paper) {
+void GrainMeter::add_alike(std::span<const FlatPatch> flats, std::span<const FlatPatch> paper) {
   if (flats.empty()) return;
   std::vector<double> variances;
   glm::dvec3 light(0.0);
@@ -258,7 +257,7 @@ void NoiseMeter::add_alike(std::span<const FlatPatch> flats, std::span<const Fla
   }
 }
 
-void NoiseMeter::add(const FlatPatch& flat) {
+void GrainMeter::add(const FlatPatch& flat) {
   const glm::dvec3 light = glm::max(flat.light, glm::dvec3(0.0));
   for (int c = 0; c < 3; ++c) {
     const double i = light[c], v = flat.covariance[c][c], w = flat.freedom / ((i + kWeightFloor) * (i + kWeightFloor));
@@ -267,7 +266,7 @@ void NoiseMeter::add(const FlatPatch& flat) {
   together_ += flat.covariance * (flat.freedom / (glm::dot(kLuminanceWeights, light) + kWeightFloor));
 }
 
-NoiseModel NoiseMeter::model() const {
+NoiseModel GrainMeter::model() const {
   NoiseModel model;
   for (int c = 0; c < 3; ++c) {
     const glm::dvec2 of_channel = line(w_[c], wi_[c], wii_[c], wv_[c], wiv_[c]);
@@ -282,4 +281,4 @@ NoiseModel NoiseMeter::model() const {
   return model;
 }
 
-}  // namespace catchlight::app
+}  // namespace catchlight::tracking

@@ -4,10 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "app/photometry/lens_blur.hpp"
-#include "app/photometry/lens_noise.hpp"
-#include "app/photometry/lens_view.hpp"
 #include "app/session/frame_track.hpp"
+#include "app/session/frame_view.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/color.hpp"
 #include "catchlight/plate.hpp"
@@ -15,11 +13,17 @@
 #include "catchlight/track.hpp"
 #include "tests/support/media_fixture.hpp"
 #include "tests/support/synthetic_tag.hpp"
+#include "tracking/camera/blur.hpp"
+#include "tracking/camera/grain.hpp"
 
 namespace catchlight::app {
 namespace {
 
 using testing::noise_frame;
+using tracking::BlurMeter;
+using tracking::GrainMeter;
+using tracking::measure_blur;
+using tracking::motion_covariance;
 using tracking::SyntheticScene;
 
 CameraModel camera() {
@@ -65,12 +69,12 @@ Frame noisy_frame(const SyntheticScene& scene, const glm::dvec3& slope, double f
 }
 
 NoiseModel measured(const glm::dvec3& slope, double floor, int frames = 4) {
-  NoiseMeter meter(camera(), target());
+  GrainMeter meter(camera(), target());
   for (int i = 1; i <= frames; ++i) meter.add(noisy_frame(scene(), slope, floor, static_cast<unsigned>(i)), row_of(scene()));
   return meter.model();
 }
 
-TEST(NoiseMeter, FindsTheVarianceOfEachChannelWithinATwentieth) {
+TEST(GrainMeter, FindsTheVarianceOfEachChannelWithinATwentieth) {
   const glm::dvec3 slope(2e-4, 3e-4, 5e-4);
   const NoiseModel model = measured(slope, 2e-6);
   for (int c = 0; c < 3; ++c)
@@ -79,7 +83,7 @@ TEST(NoiseMeter, FindsTheVarianceOfEachChannelWithinATwentieth) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(model.correlation[i], 0, 0.05);
 }
 
-TEST(NoiseMeter, RoundingAloneIsNoNoise) {
+TEST(GrainMeter, RoundingAloneIsNoNoise) {
   const NoiseModel model = measured(glm::dvec3(0), 0, 2);
   EXPECT_LT(noise_codes(model, PlateColor{}, 0.5), 0.25);
   const SceneSettings::Lens lens;
@@ -91,31 +95,31 @@ TEST(NoiseMeter, RoundingAloneIsNoNoise) {
   EXPECT_TRUE(lens_view(lens, row, frame, {}).noise.enabled);
 }
 
-TEST(NoiseMeter, SmallTagsSayNothing) {
+TEST(GrainMeter, SmallTagsSayNothing) {
   SyntheticScene far = scene();
   far.tags[0].camera_from_tag = tracking::tag_pose(camera(), {160, 120}, 2.4, {0, 0, 0});
-  NoiseMeter meter(camera(), target());
+  GrainMeter meter(camera(), target());
   meter.add(noisy_frame(far, glm::dvec3(3e-4), 0, 1), row_of(far));
   EXPECT_FALSE(meter.model().is_measured());
 }
 
-TEST(NoiseMeter, AStainOnACellIsLeftOut) {
+TEST(GrainMeter, AStainOnACellIsLeftOut) {
   const glm::dvec3 slope(3e-4);
   Frame frame = noisy_frame(scene(), slope, 0, 1);
   const auto& picture = const_cast<AVFrame&>(frame.picture());
   for (int y = 60; y < 85; ++y)  // a striped sticker over a corner of the print
     for (int x = 100; x < 130; ++x)
       if (y % 2) std::fill_n(picture.data[0] + y * picture.linesize[0] + 3 * x, 3, std::uint8_t{120});
-  NoiseMeter meter(camera(), target());
+  GrainMeter meter(camera(), target());
   meter.add(frame, row_of(scene()));
   EXPECT_NEAR(meter.model().slope.g / 3e-4, 1, 0.1);
 }
 
 /// Toner leaves streaks, which no grain has.
-TEST(NoiseMeter, StreaksOfThePrintAreNoGrain) {
+TEST(GrainMeter, StreaksOfThePrintAreNoGrain) {
   const glm::dvec3 slope(1e-4);
   const auto seen = [&](double streak_codes) {
-    NoiseMeter meter(camera(), target());
+    GrainMeter meter(camera(), target());
     for (unsigned seed = 1; seed <= 4; ++seed) {
       Frame frame = noisy_frame(scene(), slope, 2e-6, seed);
       const auto& picture = const_cast<AVFrame&>(frame.picture());
@@ -135,7 +139,7 @@ TEST(NoiseMeter, StreaksOfThePrintAreNoGrain) {
 }
 
 /// Luma of 4:2:0 footage is noisy and its chroma, after the codec, is not.
-TEST(NoiseMeter, LumaNoiseAloneIsTheSameInAllChannels) {
+TEST(GrainMeter, LumaNoiseAloneIsTheSameInAllChannels) {
   const Frame rgb = noisy_frame(scene(), glm::dvec3(3e-4), 0, 1);
   FramePtr picture = noise_frame(AV_PIX_FMT_YUV420P, 320, 240, 1);
   picture->color_range = AVCOL_RANGE_JPEG;
@@ -145,8 +149,8 @@ TEST(NoiseMeter, LumaNoiseAloneIsTheSameInAllChannels) {
       picture->data[0][y * picture->linesize[0] + x] = rgb.picture().data[0][y * rgb.picture().linesize[0] + 3 * x];
   for (int plane : {1, 2})
     for (int y = 0; y < 120; ++y) std::fill_n(picture->data[plane] + y * picture->linesize[plane], 160, std::uint8_t{128});
-  NoiseMeter meter(camera(), target());
-  meter.add({std::shared_ptr<const AVFrame>(std::move(picture)), 0, 0}, row_of(scene()));
+  GrainMeter meter(camera(), target());
+  meter.add(Frame(std::shared_ptr<const AVFrame>(std::move(picture)), 0, 0), row_of(scene()));
   const NoiseModel model = meter.model();
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(model.slope[c] / 3e-4, 1, 0.1) << c;
   for (int i = 0; i < 3; ++i) EXPECT_GT(model.correlation[i], 0.97);
@@ -184,7 +188,7 @@ std::vector<TrackRow> swinging(int frames) {
 /// With the blur that focus and shutter make, and errors of that size.
 std::vector<TrackRow> blurred(std::vector<TrackRow> rows, double focus_px2, double shutter, double error_px2) {
   std::vector<TrackRow> measured = rows;
-  measure_lens_blur(measured, camera(), 0.08);
+  measure_blur(measured, camera(), 0.08);
   std::mt19937 random(5);
   std::normal_distribution<double> normal(0, error_px2);
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -196,10 +200,10 @@ std::vector<TrackRow> blurred(std::vector<TrackRow> rows, double focus_px2, doub
   return rows;
 }
 
-TEST(LensBlur, ShutterAndFocusAreTakenApart) {
+TEST(Blur, ShutterAndFocusAreTakenApart) {
   for (const double shutter : {0.25, 0.5, 1.0}) {
     std::vector<TrackRow> rows = blurred(swinging(60), 0.7, shutter, 0.05);
-    measure_lens_blur(rows, camera(), 0.08);
+    measure_blur(rows, camera(), 0.08);
     for (const TrackRow& row : rows) {
       EXPECT_NEAR(row.lens_blur.shutter / shutter, 1, 0.05);
       EXPECT_NEAR(row.lens_blur.focus_px2 / 0.7, 1, 0.1);
@@ -207,24 +211,24 @@ TEST(LensBlur, ShutterAndFocusAreTakenApart) {
   }
 }
 
-TEST(LensBlur, AFastShutterShowsNone) {
+TEST(Blur, AFastShutterShowsNone) {
   std::vector<TrackRow> rows = blurred(swinging(60), 0.7, 0, 0.05);
-  measure_lens_blur(rows, camera(), 0.08);
+  measure_blur(rows, camera(), 0.08);
   EXPECT_EQ(rows[30].lens_blur.shutter, 0);
   EXPECT_NEAR(rows[30].lens_blur.focus_px2, 0.7, 0.07);
 }
 
-TEST(LensBlur, AFewWrongFramesDoNotDecide) {
+TEST(Blur, AFewWrongFramesDoNotDecide) {
   std::vector<TrackRow> rows = blurred(swinging(60), 0.7, 0.5, 0.03);
   for (const std::size_t i : {11, 23, 37}) rows[i].blur_px2 = {12, -5, 3};
-  measure_lens_blur(rows, camera(), 0.08);
+  measure_blur(rows, camera(), 0.08);
   EXPECT_NEAR(rows[0].lens_blur.shutter, 0.5, 0.05);
   EXPECT_NEAR(rows[23].lens_blur.focus_px2, 0.7, 0.1);
 }
 
-TEST(LensBlur, LiveRowsKnowThePastAlone) {
+TEST(Blur, LiveRowsKnowThePastAlone) {
   const std::vector<TrackRow> rows = blurred(swinging(60), 0.7, 0.5, 0.02);
-  LensBlurMeter all(camera(), 0.08), first_half(camera(), 0.08);
+  BlurMeter all(camera(), 0.08), first_half(camera(), 0.08);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     TrackRow a = rows[i], b = rows[i];
     all.add(a);
@@ -240,7 +244,7 @@ TEST(LensBlur, LiveRowsKnowThePastAlone) {
 }
 
 /// From pictures: frames averaged over the shutter, tracked, and taken apart.
-TEST(LensBlur, ARenderedShutterIsMeasuredWithinATenth) {
+TEST(Blur, ARenderedShutterIsMeasuredWithinATenth) {
   constexpr double kShutter = 0.6;
   SceneSettings settings;
   settings.tag.id = 5;

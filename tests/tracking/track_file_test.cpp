@@ -1,4 +1,4 @@
-#include "app/track_export/track_file.hpp"
+#include "tracking/track_file.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/track.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -9,13 +9,13 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
-namespace catchlight::app {
+namespace catchlight::tracking {
 namespace {
 
+using catchlight::tests::message_of;
+using catchlight::tests::TemporaryFolder;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
-using tests::message_of;
-using tests::TemporaryFolder;
 
 constexpr const char* kPoseHeader = "frame,r00,r01,r02,r10,r11,r12,r20,r21,r22,tx,ty,tz\n";
 constexpr const char* kIdentity = ",1,0,0,0,1,0,0,0,1,0,0,1\n";
@@ -218,4 +218,4 @@ TEST(TrackFile, MissingFileIsNamed) {
 }
 
 }  // namespace
-}  // namespace catchlight::app
+}  // namespace catchlight::tracking

@@ -1,14 +1,17 @@
-// What the camera did to the light, frame by frame, read off the tag.
+// What the camera did to the light of one frame, read off the tag.
 #pragma once
 
 #include <array>
 #include <glm/glm.hpp>
-#include <optional>
 
-#include "app/settings/scene_settings.hpp"
 #include "tracking/camera/photometry.hpp"
 
-namespace catchlight::app {
+namespace catchlight::tracking {
+
+/// What share of the light the tag's print sends back.
+struct TagAlbedo {
+  double white = 0.8, black = 0.04;
+};
 
 /// How white paper on the tag comes out: exposed linear value (1 = sensor white) = white * albedo + black, per channel.
 /// Independent of the probe, so that a track holds for any light put to it.
@@ -30,11 +33,6 @@ struct TagReading {
 };
 
 /// Two equations, two unknowns per channel: the white cells and the black cells are surfaces of known albedo in the same light.
-TagReading read_exposure(const tracking::TagPhotometry& photometry, double white_albedo, double black_albedo);
+TagReading read_exposure(const TagPhotometry& photometry, const TagAlbedo& albedo);
 
-/// Exposed linear value of one unit of the probe's radiance. `match`: the paper under the probe's own irradiance E must come out
-/// as it did, white / (E/pi); `fixed`: 1. Both times 2^ev.
-glm::dvec3 exposure_gain(const SceneSettings::Exposure& settings, const glm::dvec3& white,
-                         const glm::dvec3& tag_irradiance_over_pi);
-
-}  // namespace catchlight::app
+}  // namespace catchlight::tracking

@@ -1,4 +1,4 @@
-#include "app/track_export/track_file.hpp"
+#include "tracking/track_file.hpp"
 
 #include <array>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include "catchlight/rigid_transform.hpp"
 #include "catchlight/util/text.hpp"
 
-namespace catchlight::app {
+namespace catchlight::tracking {
 namespace {
 
 constexpr std::array<const char*, 12> kPoseColumns{"r00", "r01", "r02", "r10", "r11", "r12",
@@ -225,4 +225,4 @@ std::string track_file_text(const std::vector<TrackRow>& rows) {
   return text;
 }
 
-}  // namespace catchlight::app
+}  // namespace catchlight::tracking

@@ -1,4 +1,4 @@
-#include "app/photometry/lens_blur.hpp"
+#include "tracking/camera/blur.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include "catchlight/util/statistics.hpp"
 #include "tracking/camera/lens.hpp"
 
-namespace catchlight::app {
+namespace catchlight::tracking {
 namespace {
 
 constexpr std::size_t kFocusFrames = 3;  ///< on either side
@@ -77,8 +77,25 @@ double focus_of(const TrackRow& row, const Covariance2& motion, double shutter) 
   return std::max(blur - of_motion, 0.0);
 }
 
-double median_or_0(std::vector<double> values) {
+/// The median of the rows from `first` to before `end`; 0 where none of them is measured.
+double focus_of(const std::vector<TrackRow>& rows, const std::vector<Covariance2>& motions, std::size_t first, std::size_t end,
+                double shutter) {
+  std::vector<double> values;
+  for (std::size_t i = first; i < end; ++i)
+    if (is_measured(rows[i])) values.push_back(focus_of(rows[i], motions[i], shutter));
   return values.empty() ? 0 : median(std::move(values));
+}
+
+/// Half the way from the row before to the row after, or all of it from one of them; none where neither follows on.
+TagMotion motion_at(const std::vector<TrackRow>& rows, std::size_t i) {
+  const bool has_before = i > 0 && follows(rows[i - 1], rows[i]),
+             has_after = i + 1 < rows.size() && follows(rows[i], rows[i + 1]);
+  if (!has_before && !has_after) return {};
+  return motion_between(rows[has_before ? i - 1 : i], rows[has_after ? i + 1 : i]);
+}
+
+Covariance2 seen_motion(const CameraModel& camera, const TrackRow& row, double tag_size_m) {
+  return row.found ? motion_covariance(camera, row.camera_from_tag, row.lens_blur.motion, tag_size_m) : Covariance2{};
 }
 
 }  // namespace
@@ -90,7 +107,7 @@ Covariance2 motion_covariance(const CameraModel& camera, const RigidTransform& c
   constexpr int kPoints = 4;
   for (const glm::dvec3& corner : {glm::dvec3(-half, -half, 0), {half, -half, 0}, {half, half, 0}, {-half, half, 0}}) {
     const glm::dvec3 point = camera_from_tag * corner, way = 0.5 * (glm::cross(motion.turn_rad, point) + motion.shift_m);
-    const auto from = tracking::project_px(camera, point - way), to = tracking::project_px(camera, point + way);
+    const auto from = project_px(camera, point - way), to = project_px(camera, point + way);
     if (!from || !to) return {};
     const glm::dvec2 v = *to - *from;
     sum.xx += v.x * v.x / 12 / kPoints, sum.xy += v.x * v.y / 12 / kPoints, sum.yy += v.y * v.y / 12 / kPoints;
@@ -98,42 +115,33 @@ Covariance2 motion_covariance(const CameraModel& camera, const RigidTransform& c
   return sum;
 }
 
-void measure_lens_blur(std::vector<TrackRow>& rows, const CameraModel& camera, double tag_size_m) {
-  std::vector<Covariance2> motions(rows.size());
+void measure_blur(std::vector<TrackRow>& rows, const CameraModel& camera, double tag_size_m) {
+  std::vector<Covariance2> motions;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const bool has_before = i > 0 && follows(rows[i - 1], rows[i]),
-               has_after = i + 1 < rows.size() && follows(rows[i], rows[i + 1]);
-    rows[i].lens_blur = {};
-    if (has_before || has_after)
-      rows[i].lens_blur.motion = motion_between(rows[has_before ? i - 1 : i], rows[has_after ? i + 1 : i]);
-    if (rows[i].found) motions[i] = motion_covariance(camera, rows[i].camera_from_tag, rows[i].lens_blur.motion, tag_size_m);
+    rows[i].lens_blur.motion = motion_at(rows, i);
+    motions.push_back(seen_motion(camera, rows[i], tag_size_m));
   }
   const double shutter = shutter_of(rows, motions);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    std::vector<double> around;
     const std::size_t first = i - std::min(i, kFocusFrames), end = std::min(rows.size(), i + kFocusFrames + 1);
-    for (std::size_t k = first; k < end; ++k)
-      if (is_measured(rows[k])) around.push_back(focus_of(rows[k], motions[k], shutter));
     rows[i].lens_blur.shutter = shutter;
-    rows[i].lens_blur.focus_px2 = median_or_0(std::move(around));
+    rows[i].lens_blur.focus_px2 = focus_of(rows, motions, first, end, shutter);
   }
 }
 
-void LensBlurMeter::add(TrackRow& row) {
-  if (!last_.empty() && follows(last_.back(), row)) row.lens_blur.motion = motion_between(last_.back(), row);
+void BlurMeter::add(TrackRow& row) {
   last_.push_back(row);
-  if (last_.size() > kRemembered) last_.erase(last_.begin());
-  std::vector<Covariance2> motions;
-  for (const TrackRow& each : last_)
-    motions.push_back(each.found ? motion_covariance(camera_, each.camera_from_tag, each.lens_blur.motion, tag_size_m_)
-                                 : Covariance2{});
-  row.lens_blur.shutter = shutter_of(last_, motions);
-  std::vector<double> around;
-  const std::size_t window = 2 * kFocusFrames + 1, first = last_.size() - std::min(last_.size(), window);
-  for (std::size_t k = first; k < last_.size(); ++k)
-    if (is_measured(last_[k])) around.push_back(focus_of(last_[k], motions[k], row.lens_blur.shutter));
-  row.lens_blur.focus_px2 = median_or_0(std::move(around));
-  last_.back() = row;
+  last_.back().lens_blur.motion = motion_at(last_, last_.size() - 1);
+  motions_.push_back(seen_motion(camera_, last_.back(), tag_size_m_));
+  if (last_.size() > kRemembered) {
+    last_.erase(last_.begin());
+    motions_.erase(motions_.begin());
+  }
+  LensBlurModel& blur = last_.back().lens_blur;
+  blur.shutter = shutter_of(last_, motions_);
+  const std::size_t end = last_.size(), first = end - std::min(end, 2 * kFocusFrames + 1);
+  blur.focus_px2 = focus_of(last_, motions_, first, end, blur.shutter);
+  row.lens_blur = blur;
 }
 
-}  // namespace catchlight::app
+}  // namespace catchlight::tracking

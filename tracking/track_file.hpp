@@ -12,7 +12,7 @@
 
 #include "catchlight/track.hpp"
 
-namespace catchlight::app {
+namespace catchlight::tracking {
 
 /// As the files say it: "tracking", "coasting", "lost".
 const char* name_of(TrackState state);
@@ -25,4 +25,4 @@ std::vector<TrackRow> read_track_file(const std::string& path);
 /// Every number is the shortest text that reads back to the same bits.
 std::string track_file_text(const std::vector<TrackRow>& rows);
 
-}  // namespace catchlight::app
+}  // namespace catchlight::tracking

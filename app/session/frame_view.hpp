@@ -1,15 +1,19 @@
-// From what was measured of the lens, and what the scene file wants of it, to what the compositor draws.
+// From what the track says of a frame, and what the scene file wants of it, to what the compositor draws.
 #pragma once
 
 #include "app/media/pixels/frame.hpp"
 #include "app/session/report.hpp"
 #include "app/settings/scene_settings.hpp"
-#include "app/track_export/track_file.hpp"
 #include "catchlight/plate.hpp"
 #include "catchlight/track.hpp"
 #include "render/camera/lens_view.hpp"
 
 namespace catchlight::app {
+
+/// Exposed linear value of one unit of the probe's radiance. `match`: the paper under the probe's own irradiance E must come out
+/// as it did, white / (E/pi); `fixed`: 1. Both times 2^ev.
+glm::dvec3 exposure_gain(const SceneSettings::Exposure& settings, const glm::dvec3& white,
+                         const glm::dvec3& tag_irradiance_over_pi);
 
 /// Luma's standard deviation on a grey of `light`, in 8-bit codes.
 double noise_codes(const NoiseModel& noise, const PlateColor& response, double light);

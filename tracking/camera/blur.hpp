@@ -1,14 +1,13 @@
-// Takes the blur of the tag's edges apart: what the lens does, and what the shutter does while the tag moves.
+// Takes the blur of the tag's edges apart: what the focus does, and what the shutter does while the tag moves.
 #pragma once
 
 #include <vector>
 
-#include "app/track_export/track_file.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/rigid_transform.hpp"
 #include "catchlight/track.hpp"
 
-namespace catchlight::app {
+namespace catchlight::tracking {
 
 /// Mean over the tag of v v^T / 12, v the way (pixels) its points go from frame to frame: the covariance that a shutter open all
 /// the time would add.
@@ -21,12 +20,12 @@ Covariance2 motion_covariance(const CameraModel& camera, const RigidTransform& c
 /// are shutter^2 times motion's, whatever the focus: least squares over all rows, those that do not fit weighted down (Huber).
 /// 0 where that is not four times its own standard error.
 /// Focus: what then is left, the mean of both axes; the median of seven frames.
-void measure_lens_blur(std::vector<TrackRow>& rows, const CameraModel& camera, double tag_size_m);
+void measure_blur(std::vector<TrackRow>& rows, const CameraModel& camera, double tag_size_m);
 
 /// The same of live footage: each row by those before it.
-class LensBlurMeter {
+class BlurMeter {
  public:
-  LensBlurMeter(const CameraModel& camera, double tag_size_m) : camera_(camera), tag_size_m_(tag_size_m) {}
+  BlurMeter(const CameraModel& camera, double tag_size_m) : camera_(camera), tag_size_m_(tag_size_m) {}
 
   void add(TrackRow& row);
 
@@ -34,6 +33,7 @@ class LensBlurMeter {
   CameraModel camera_;
   double tag_size_m_;
   std::vector<TrackRow> last_;
+  std::vector<Covariance2> motions_;  ///< of those rows
 };
 
-}  // namespace catchlight::app
+}  // namespace catchlight::tracking
