@@ -25,9 +25,9 @@ struct PoseCandidate {
 /// What the camera made of the tag's print, from direct refinement.
 struct TagAppearance {
   double white_linear = 0, black_linear = 0;  ///< luma made linear, in the tag's middle; 1 = sensor white
-  Covariance2 blur_px2;                       ///< of lens, motion and pixel together
+  Covariance2 blur_px2;                       ///< by lens, motion and pixel together
   double noise_codes = 0;                     ///< standard deviation, 8-bit codes
-  double covered_share = 0;                   ///< of the tag, by something else
+  double occluded_share = 0;                  ///< share of the tag that something else hides
 };
 
 /// One frame's result. Corners are in tag order (-,-) (+,-) (+,+) (-,+), in OpenCV's pixel convention, as seen (distorted).
@@ -35,7 +35,7 @@ struct TagObservation {
   TrackState state = TrackState::lost;
   RigidTransform camera_from_tag;
   PoseCovariance covariance{};
-  std::array<glm::dvec2, 4> corners_px{};   ///< of the first tag
+  std::array<glm::dvec2, 4> corners_px{};   ///< the first tag's
   double corner_sigma_px = 0;               ///< how uncertain they are, per axis
   double ambiguity = 0;                     ///< probability that the other planar pose is the right one
   std::vector<PoseCandidate> candidates;    ///< one or two, the likelier first; empty unless tracking

@@ -11,10 +11,10 @@ constexpr std::size_t kMaxKept = 26;  ///< a second of footage, and two frames t
 
 }  // namespace
 
-RecordedPath::RecordedPath(const CameraModel& camera, const TagTarget& target, const TrackerOptions& options)
+ShotTracker::ShotTracker(const CameraModel& camera, const TagTarget& target, const TrackerOptions& options)
     : camera_(camera), target_(target), options_(options), forward_(camera, target, options) {}
 
-const TagObservation& RecordedPath::add(const LumaView& luma, double time_s) {
+const TagObservation& ShotTracker::add(const LumaView& luma, double time_s) {
   last_ = forward_.track(luma, time_s);
   frames_.push_back({time_s, {}});
   appearances_.emplace_back();
@@ -26,13 +26,13 @@ const TagObservation& RecordedPath::add(const LumaView& luma, double time_s) {
   return last_;
 }
 
-void RecordedPath::record(std::size_t frame, const TagObservation& seen) {
+void ShotTracker::record(std::size_t frame, const TagObservation& seen) {
   if (seen.state != TrackState::tracking) return;
   frames_[frame].candidates = seen.candidates;
   appearances_[frame] = seen.appearance;
 }
 
-void RecordedPath::keep(const LumaView& luma, double time_s) {
+void ShotTracker::keep(const LumaView& luma, double time_s) {
   if (kept_.size() == kMaxKept) kept_.pop_front();
   Kept& kept = kept_.emplace_back(Kept{frames_.size() - 1, time_s, luma, {}});
   kept.codes.reserve(static_cast<std::size_t>(luma.width_px) * static_cast<std::size_t>(luma.height_px));
@@ -45,7 +45,7 @@ void RecordedPath::keep(const LumaView& luma, double time_s) {
 }
 
 /// Time runs backward for a second tracker, from the last two frames on.
-void RecordedPath::look_back() {
+void ShotTracker::look_back() {
   Tracker backward(camera_, target_, options_);
   for (std::size_t i = kept_.size(); i-- > 0;) {
     const TagObservation seen = backward.track(kept_[i].luma, -kept_[i].time_s);
@@ -55,8 +55,8 @@ void RecordedPath::look_back() {
   }
 }
 
-std::vector<SolvedPose> RecordedPath::solve() const {
-  return solve_path(frames_, options_.coast_s);
+std::vector<SolvedPose> ShotTracker::solve() const {
+  return solve_trajectory(frames_, options_.coast_s);
 }
 
 }  // namespace catchlight::tracking

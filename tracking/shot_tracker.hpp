@@ -15,10 +15,10 @@
 
 namespace catchlight::tracking {
 
-class RecordedPath {
+class ShotTracker {
  public:
   /// Throws Error as Tracker does.
-  RecordedPath(const CameraModel& camera, const TagTarget& target, const TrackerOptions& options = {});
+  ShotTracker(const CameraModel& camera, const TagTarget& target, const TrackerOptions& options = {});
 
   /// Frames come in order. What the frame shows with the ones before it; where the tag has just come into view, the frames before
   /// are looked at again from there, backward: a tag that is still cut off by the picture's edge, or still blurred, can be
@@ -47,7 +47,7 @@ class RecordedPath {
   TrackerOptions options_;
   Tracker forward_;
   TagObservation last_;
-  std::vector<PathFrame> frames_;
+  std::vector<TrajectoryFrame> frames_;
   std::vector<std::optional<TagAppearance>> appearances_;
   std::deque<Kept> kept_;  ///< the last frames
 };

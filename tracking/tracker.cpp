@@ -17,9 +17,9 @@
 namespace catchlight::tracking {
 namespace {
 
-constexpr double kDetectedErrorPx = 2;               ///< of the detector's corners in a smaller picture
-constexpr double kMinErrorPx = 1, kMaxErrorPx = 16;  ///< of a prediction; more than that is for the detector to find
-constexpr double kFirstErrorPx = 6;                  ///< of the first prediction, which knows no motion
+constexpr double kDetectedErrorPx = 2;               ///< the detector's corners in a smaller picture
+constexpr double kMinErrorPx = 1, kMaxErrorPx = 16;  ///< a prediction's; more than that is for the detector to find
+constexpr double kFirstErrorPx = 6;                  ///< the first prediction's, which knows no motion
 constexpr double kMaxSigmaPx = 2;                    ///< a fit whose corners are less certain is none
 
 void check_camera(const CameraModel& camera, const TagTarget& target, const TrackerOptions& options) {
@@ -85,18 +85,18 @@ struct Tracker::Impl {
     if (other && other->log_likelihood > fit->log_likelihood) std::swap(measurement.candidates[0], measurement.candidates[1]);
     const DirectFit& best = other && other->log_likelihood > fit->log_likelihood ? *other : *fit;
     measurement.appearance =
-        TagAppearance{best.white_linear, best.black_linear, best.blur_px2, best.noise_codes, best.covered_share};
+        TagAppearance{best.white_linear, best.black_linear, best.blur_px2, best.noise_codes, best.occluded_share};
     return measurement;
   }
 
   /// From corners that only the detector has seen, either planar pose may be the right one: the one that explains more is kept.
-  /// One that has to call part of the tag covered explains less, however little noise it leaves elsewhere.
+  /// A pose that has to call part of the tag occluded explains less, however little noise it leaves elsewhere.
   std::optional<Measurement> refined_from_both(const LumaView& luma, const std::vector<PoseHypothesis>& poses,
                                                const RigidTransform& this_from_tag) {
-    constexpr double kCovered = 0.1;
+    constexpr double kOccluded = 0.1;
     std::optional<Measurement> best;
     const auto is_better = [](const TagAppearance& a, const TagAppearance& b) {
-      if (std::abs(a.covered_share - b.covered_share) > kCovered) return a.covered_share < b.covered_share;
+      if (std::abs(a.occluded_share - b.occluded_share) > kOccluded) return a.occluded_share < b.occluded_share;
       return a.noise_codes < b.noise_codes;
     };
     for (const PoseHypothesis& pose : poses) {
@@ -138,7 +138,7 @@ struct Tracker::Impl {
     observation.camera_from_tag = chosen.camera_from_tag;
     observation.covariance = chosen.covariance;
     observation.corner_sigma_px = corner_sigma_px(camera, chosen.camera_from_tag, chosen.covariance, target.size_m);
-    observation.ambiguity = memory.doubt();
+    observation.ambiguity = memory.ambiguity();
     observation.candidates = measurement.candidates;
     observation.appearance = measurement.appearance;
     const auto corners_px = project_corners(camera, chosen.camera_from_tag, target.size_m);

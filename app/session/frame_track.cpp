@@ -135,7 +135,7 @@ struct PathTrack::Impl {
   CameraModel camera;
   TagTarget target;
   SceneSettings::Exposure settings;
-  tracking::RecordedPath path;
+  tracking::ShotTracker path;
   tracking::ExposureMatch exposure;
   tracking::GrainMeter grain;
   std::vector<TrackRow> rows;
@@ -146,7 +146,7 @@ PathTrack::PathTrack(const CameraModel& camera, const SceneSettings& scene) {
   impl_ = std::make_unique<Impl>(Impl{camera,
                                       target,
                                       scene.exposure,
-                                      tracking::RecordedPath(camera, target, scene.tag.tracker_options()),
+                                      tracking::ShotTracker(camera, target, scene.tag.tracker_options()),
                                       exposure_match(camera, scene),
                                       tracking::GrainMeter(camera, target),
                                       {}});

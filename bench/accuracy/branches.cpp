@@ -9,7 +9,7 @@
 namespace catchlight::tracking {
 namespace {
 
-constexpr int kPaths = 100;
+constexpr int kTrajectories = 100;
 
 struct Count {
   std::string method;
@@ -48,14 +48,15 @@ void add(const Clip& clip, const MethodResult& result, std::vector<Count>& count
 
 void measure_branches() {
   std::vector<Count> counts;
-  each_clip(kPaths, frontal_clip, {peers, followed},
+  each_clip(kTrajectories, frontal_clip, {peers, followed},
             [&](const Clip& clip, const MethodResult& result) { add(clip, result, counts); });
   std::puts(
-      "\nWrong of the two planar poses: tag of 30 to 60 px within 15 deg of frontal, focal length 1000 px, 100 paths of 48 "
+      "\nWrong of the two planar poses: tag of 30 to 60 px within 15 deg of frontal, focal length 1000 px, 100 trajectories of "
+      "48 "
       "frames");
   std::printf("%16s %10s %18s %18s\n", "", "found", "wrong, frames", "wrong at the end");
   for (const Count& each : counts)
-    std::printf("%16s %9.1f%% %17.2f%% %10d of %d\n", each.method.c_str(), 100.0 * each.found / (kPaths * 48.0),
+    std::printf("%16s %9.1f%% %17.2f%% %10d of %d\n", each.method.c_str(), 100.0 * each.found / (kTrajectories * 48.0),
                 100.0 * each.wrong / each.found, each.wrong_at_end, each.ended);
   std::fflush(stdout);
 }

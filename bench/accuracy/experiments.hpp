@@ -12,7 +12,7 @@ void measure_ladders(const std::optional<std::filesystem::path>& csv_folder);
 /// Standard deviation of a still tag's corners over 60 noises, per axis.
 void measure_jitter();
 
-/// How often the mirrored pose is taken for the true one on 100 paths of a small tag near frontal.
+/// How often the mirrored pose is taken for the true one on 100 trajectories of a small tag near frontal.
 void measure_branches();
 
 /// Path-traced plates with poses, in `folder`; a note where they are not there.

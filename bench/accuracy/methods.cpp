@@ -111,11 +111,11 @@ std::vector<MethodResult> rungs(const Clip& clip) {
 }
 
 std::vector<MethodResult> followed(const Clip& clip) {
-  RecordedPath path(clip.camera, clip.target, {});
-  MethodResult causal{"direct, follow", {}}, solved{"direct, path", {}};
+  ShotTracker tracker(clip.camera, clip.target, {});
+  MethodResult causal{"direct, follow", {}}, solved{"direct, solved", {}};
   for (const ClipFrame& frame : clip.frames)
-    causal.estimates.push_back(estimate_of(path.add(frame.picture.luma(), frame.time_s)));
-  for (const SolvedPose& pose : path.solve()) {
+    causal.estimates.push_back(estimate_of(tracker.add(frame.picture.luma(), frame.time_s)));
+  for (const SolvedPose& pose : tracker.solve()) {
     if (pose.state != TrackState::tracking) {
       solved.estimates.push_back(std::nullopt);
       continue;

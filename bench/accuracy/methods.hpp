@@ -32,7 +32,7 @@ std::vector<MethodResult> peers(const Clip& clip);
 /// Ours frame by frame, with no memory, on each rung.
 std::vector<MethodResult> rungs(const Clip& clip);
 
-/// Ours through the clip: `direct, follow` knows the frames before, `direct, path` those after too.
+/// Ours through the clip: `direct, follow` knows the frames before, `direct, solved` those after too.
 std::vector<MethodResult> followed(const Clip& clip);
 
 using Measure = std::vector<MethodResult> (*)(const Clip&);

@@ -40,12 +40,12 @@ struct Solved {
 };
 
 Solved solve(const Footage& footage, const TrackerOptions& options = {}) {
-  RecordedPath path(small_camera(), target(), options);
+  ShotTracker tracker(small_camera(), target(), options);
   Solved solved;
   for (std::size_t i = 0; i < footage.size(); ++i)
-    solved.at_once.push_back(path.add({footage[i].data(), 200, 160, 200}, static_cast<double>(i) * kFrame_s).state);
-  solved.poses = path.solve();
-  solved.appearances = path.appearances().size();
+    solved.at_once.push_back(tracker.add({footage[i].data(), 200, 160, 200}, static_cast<double>(i) * kFrame_s).state);
+  solved.poses = tracker.solve();
+  solved.appearances = tracker.appearances().size();
   return solved;
 }
 
@@ -77,7 +77,7 @@ std::vector<TrackState> states_of(const Solved& solved) {
   return states;
 }
 
-TEST(RecordedPath, ATagThatComesInIsFollowedBackwardToWhereItCannotBeDetected) {
+TEST(ShotTracker, ATagThatComesInIsFollowedBackwardToWhereItCannotBeDetected) {
   const Solved solved = solve(entering_footage());
   const std::size_t detected = first_tracked(solved.at_once), followed = first_tracked(states_of(solved));
   ASSERT_LT(detected, 12u);
@@ -90,7 +90,7 @@ TEST(RecordedPath, ATagThatComesInIsFollowedBackwardToWhereItCannotBeDetected) {
   EXPECT_EQ(solved.appearances, entering_footage().size());
 }
 
-TEST(RecordedPath, ACutDoesNotLeakBackward) {
+TEST(ShotTracker, ACutDoesNotLeakBackward) {
   // The scene before shows nothing, or a tag of another number in the very same place.
   for (const bool has_other_tag : {false, true}) {
     const RigidTransform pose = tag_pose(small_camera(), {100, 80}, 1.3, {30, 20, 5});
@@ -106,7 +106,7 @@ TEST(RecordedPath, ACutDoesNotLeakBackward) {
   }
 }
 
-TEST(RecordedPath, ACutToAnEmptySceneCoastsAndEnds) {
+TEST(ShotTracker, ACutToAnEmptySceneCoastsAndEnds) {
   const RigidTransform pose = tag_pose(small_camera(), {100, 80}, 1.3, {30, 20, 5});
   Footage footage;
   for (unsigned i = 0; i < 14; ++i)
@@ -118,7 +118,7 @@ TEST(RecordedPath, ACutToAnEmptySceneCoastsAndEnds) {
   EXPECT_EQ(states[10], TrackState::lost) << "0.2 s after it was last seen";
 }
 
-TEST(RecordedPath, TheSameFramesGiveTheSameBytes) {
+TEST(ShotTracker, TheSameFramesGiveTheSameBytes) {
   const Solved once = solve(entering_footage()), again = solve(entering_footage());
   for (std::size_t i = 0; i < once.poses.size(); ++i) {
     EXPECT_EQ(again.poses[i].state, once.poses[i].state);
@@ -128,26 +128,27 @@ TEST(RecordedPath, TheSameFramesGiveTheSameBytes) {
   }
 }
 
-TEST(RecordedPath, FootageWithoutFramesHasNoPath) {
+TEST(ShotTracker, FootageWithoutFramesHasNoTrajectory) {
   EXPECT_TRUE(solve({}).poses.empty());
 }
 
-TEST(RecordedPath, AFrameOfAnotherSizeIsRefused) {
-  RecordedPath path(small_camera(), target());
+TEST(ShotTracker, AFrameOfAnotherSizeIsRefused) {
+  ShotTracker tracker(small_camera(), target());
   const std::vector<std::uint8_t> codes(100 * 100, 128);
-  EXPECT_THROW(path.add({codes.data(), 100, 100, 100}, 0), Error);
+  EXPECT_THROW(tracker.add({codes.data(), 100, 100, 100}, 0), Error);
 }
 
-TEST(RecordedPath, RowsThatAreFurtherApartThanTheirWidthAreRead) {
+TEST(ShotTracker, RowsThatAreFurtherApartThanTheirWidthAreRead) {
   // Decoders pad their rows; frames are kept to be looked at again.
   Footage padded;
   for (const auto& frame : entering_footage()) {
     auto& rows = padded.emplace_back(232u * 160u, std::uint8_t{77});
     for (std::size_t y = 0; y < 160; ++y) std::copy_n(&frame[y * 200], 200, &rows[y * 232]);
   }
-  RecordedPath path(small_camera(), target());
-  for (std::size_t i = 0; i < padded.size(); ++i) path.add({padded[i].data(), 200, 160, 232}, static_cast<double>(i) * kFrame_s);
-  const auto poses = path.solve();
+  ShotTracker tracker(small_camera(), target());
+  for (std::size_t i = 0; i < padded.size(); ++i)
+    tracker.add({padded[i].data(), 200, 160, 232}, static_cast<double>(i) * kFrame_s);
+  const auto poses = tracker.solve();
   const Solved expected = solve(entering_footage());
   for (std::size_t i = 0; i < poses.size(); ++i)
     EXPECT_EQ(poses[i].camera_from_tag.translation_m, expected.poses[i].camera_from_tag.translation_m) << i;

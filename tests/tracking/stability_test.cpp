@@ -120,7 +120,7 @@ TEST(Stability, ThirtyPercentCovered) {
       expect_tracked(scene, seen, 0.06, "code " + std::to_string(code) + ", frame " + std::to_string(frame));
       if (frame < 6) continue;
       ASSERT_TRUE(seen.appearance);
-      EXPECT_GT(seen.appearance->covered_share, 0.2);
+      EXPECT_GT(seen.appearance->occluded_share, 0.2);
     }
   }
 }

@@ -33,7 +33,7 @@ class BlurMeter {
   CameraModel camera_;
   double tag_size_m_;
   std::vector<TrackRow> last_;
-  std::vector<Covariance2> motions_;  ///< of those rows
+  std::vector<Covariance2> motions_;  ///< one for each of those rows
 };
 
 }  // namespace catchlight::tracking

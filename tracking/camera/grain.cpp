@@ -20,12 +20,12 @@ namespace catchlight::tracking {
 namespace {
 
 constexpr double kReachSigmas = 3, kReachPx = 1;  ///< how far an edge's light reaches: blur, and the chroma's own filter
-constexpr std::size_t kMinBlocks = 8;             ///< in a cell
+constexpr std::size_t kMinBlocks = 8;             ///< a cell's
 constexpr double kMaxOfMedian = 2.5;              ///< a cell with more variance is not flat
 constexpr double kBlackestCode = 0.004;           ///< darker ones may be clipped, as from kClippingCode on
 constexpr double kMaxPixels = 100'000;            ///< looked at in a frame
 constexpr double kNoiselessLight = 0.03;          ///< the darkest that may be without noise
-constexpr int kPaperCells = 4;                    ///< of the sheet around the print
+constexpr int kPaperCells = 4;                    ///< how far the sheet around the print goes on
 constexpr double kPaperLikeness = 0.15;           ///< the sheet's light differs by no more from the print's white
 constexpr double kMaxOfFine = 3;                  ///< grain smeared by a codec has no more; else it is texture
 constexpr double kWeightFloor = 0.02;             ///< variance grows about as light + this, so that its own error does too

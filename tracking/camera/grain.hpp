@@ -14,10 +14,10 @@ namespace catchlight::tracking {
 /// What one cell shows.
 struct FlatPatch {
   glm::dvec3 light{0.0};       ///< mean, exposed linear
-  glm::dmat3 covariance{0.0};  ///< of it
+  glm::dmat3 covariance{0.0};  ///< the light's
   double luma_variance = 0;    ///< in codes, of what a plane leaves
-  double fine_variance = 0;    ///< of luma, by its mixed second differences: the same for white noise, nothing for streaks
-  double freedom = 0;          ///< degrees of it
+  double fine_variance = 0;    ///< luma's, by its mixed second differences: the same for white noise, nothing for streaks
+  double freedom = 0;          ///< degrees of freedom
   bool is_on_print = true;     ///< or on what may be the sheet around it
 };
 

@@ -15,10 +15,11 @@
 namespace catchlight::tracking {
 namespace {
 
-constexpr double kSmallestCellPx = 3;   ///< below it, no pixel of a cell is free of its neighbours' light
-constexpr int kSamplesAcross = 8;       ///< of a cell's middle, at most: more would add nothing but time
-constexpr double kClippedShare = 0.1;   ///< of the samples: more would pull their mean
-constexpr double kTrimmedShare = 0.25;  ///< of the cells, at either end: a highlight, a shadow's edge, a stain
+constexpr double kSmallestCellPx = 3;  ///< below it, no pixel of a cell is free of its neighbours' light
+constexpr int kSamplesAcross = 8;      ///< a cell's middle, at most: more would add nothing but time
+constexpr double kClippedShare = 0.1;  ///< more clipped samples would pull their mean
+constexpr double kTrimmedShare =
+    0.25;  ///< share of the cells at either end that is left out: a highlight, a shadow's edge, a stain
 
 /// Maps cells of the layout to where they are seen.
 struct CellGrid {

@@ -30,7 +30,7 @@ struct TagPhotometry {
   glm::dvec3 white_linear{0.0};
   glm::dvec3 black_linear{0.0};
   int white_pixels = 0, black_pixels = 0;
-  glm::bvec3 is_clipped{false};  ///< of the white: `white_linear` is only a lower bound there
+  glm::bvec3 is_clipped{false};  ///< the white is: `white_linear` is only a lower bound there
 };
 
 /// The pixels that measure_photometry() wants to see.

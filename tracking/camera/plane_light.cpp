@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kPatchesAcross = 10, kPatchesPerTag = 2;
 constexpr std::size_t kPatches = kPatchesAcross * kPatchesAcross - kPatchesPerTag * kPatchesPerTag;  ///< the last places
-constexpr double kClippedShare = 0.02;  ///< of a place's samples: what they lack pulls its mean
+constexpr double kClippedShare = 0.02;  ///< more clipped samples of a place would pull its mean
 
 /// A square on the plane, in sides of the tag from its centre, x right and y up.
 struct Place {
@@ -68,7 +68,7 @@ struct Ratio {
   double value, weight;
 };
 
-/// Of the first `places` that are known in both.
+/// The ratios of the first `places`, as far as they are known in both.
 std::vector<Ratio> ratios_of(const PlaneLight& now, const PlaneLight& then, int channel, std::size_t places) {
   constexpr float kMinLinear = 1e-3f;  // a quarter of a code of 8 bits in sRGB: darker places say nothing
   std::vector<Ratio> ratios;
@@ -85,7 +85,7 @@ struct MiddleHalf {
   double low, mean, high;
 };
 
-/// Of the weights laid end to end, what lies in the middle.
+/// The half in the middle of all weights, laid end to end.
 std::optional<MiddleHalf> middle_half(std::vector<Ratio> ratios) {
   constexpr std::size_t kMinPlaces = 8;
   if (ratios.size() < kMinPlaces) return std::nullopt;

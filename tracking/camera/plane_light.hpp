@@ -16,7 +16,7 @@ namespace catchlight::tracking {
 /// around it, to two and a half sides from its centre. NaN in a channel: clipped there, or not wholly in the picture.
 struct PlaneLight {
   std::vector<glm::vec3> linear;
-  std::vector<float> samples;  ///< of each place: what its mean is worth
+  std::vector<float> samples;  ///< a number for each place: what its mean is worth
 };
 
 /// The pixels that measure_plane() wants to see; empty where the tag's centre is not in front of the camera.

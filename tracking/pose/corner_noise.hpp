@@ -18,7 +18,7 @@ class CornerNoise {
   std::vector<PoseCandidate> candidates(const CameraModel& camera, std::span<const PoseHypothesis> poses, double size_m);
 
  private:
-  double sum_px2_ = 0, weight_ = 0;  ///< of the corners' variance per axis
+  double sum_px2_ = 0, weight_ = 0;  ///< sums over the corners' variances per axis
 };
 
 }  // namespace catchlight::tracking

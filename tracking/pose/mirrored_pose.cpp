@@ -22,7 +22,7 @@ std::optional<RigidTransform> tilted_the_other_way(const RigidTransform& camera_
 }  // namespace
 
 std::optional<PlanarSquare> planar_square(const std::vector<BundledTag>& tags) {
-  constexpr double kFlat = 1e-3;  // of a tag's size
+  constexpr double kFlat = 1e-3;  // in sizes of the tag
   glm::dvec3 low(1e9), high(-1e9);
   for (const BundledTag& tag : tags)
     for (const glm::dvec3& corner_m : tag_corners_m(tag.size_m)) {

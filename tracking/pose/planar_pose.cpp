@@ -38,7 +38,7 @@ bool shows_its_face(const RigidTransform& camera_from_tag) {
 
 /// Seen frontally enough, both solutions lead to the one minimum there is.
 bool same_pose(const RigidTransform& a, const RigidTransform& b) {
-  constexpr double kSameAxis = 1e-3;  // of an axis of length 1: a twentieth of a degree
+  constexpr double kSameAxis = 1e-3;  // axes of length 1: a twentieth of a degree
   return glm::distance(a.rotation[0], b.rotation[0]) < kSameAxis && glm::distance(a.rotation[1], b.rotation[1]) < kSameAxis;
 }
 

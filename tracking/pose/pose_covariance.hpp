@@ -13,7 +13,7 @@ namespace catchlight::tracking {
 double corner_sigma_px(const CameraModel& camera, const RigidTransform& camera_from_tag, const PoseCovariance& covariance,
                        double size_m);
 
-/// Of a pose fitted to four corners of independent errors of `sigma_px` per axis.
+/// Covariance of a pose that is fitted to four corners of independent errors of `sigma_px` per axis.
 PoseCovariance covariance_from_corners(const CameraModel& camera, const RigidTransform& camera_from_tag, double size_m,
                                        double sigma_px);
 

@@ -109,7 +109,7 @@ std::optional<RigidTransform> PoseMemory::predict(double time_s) const {
   return moved(hypotheses_[chosen_], hypotheses_[chosen_].camera_from_tag, time_s - time_s_);
 }
 
-double PoseMemory::doubt() const {
+double PoseMemory::ambiguity() const {
   if (count_ < 2) return 0;
   return hypotheses_[1 - chosen_].probability / (hypotheses_[0].probability + hypotheses_[1].probability);
 }

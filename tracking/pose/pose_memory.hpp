@@ -20,7 +20,7 @@ class PoseMemory {
   std::size_t choose(std::span<const PoseCandidate> candidates, double time_s);
 
   /// Probability that the other pose is the right one; 0 where there is none.
-  double doubt() const;
+  double ambiguity() const;
 
   /// The chosen pose moved on to `time_s` at the velocity of the last frames; empty before the first frame.
   std::optional<RigidTransform> predict(double time_s) const;

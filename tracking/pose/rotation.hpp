@@ -5,7 +5,7 @@
 
 namespace catchlight::tracking {
 
-/// Of length pi at most.
+/// The vector is at most pi long.
 glm::dvec3 rotation_vector(const glm::dmat3& rotation);
 
 glm::dmat3 rotation_matrix(const glm::dvec3& rotation_vector_rad);

@@ -12,7 +12,8 @@ namespace {
 
 using LinearTable = std::array<double, 256>;
 
-constexpr double kReachCells = 0.7;       ///< of the uniform cell on either side; beyond it the blur of the next cell shows
+constexpr double kReachCells =
+    0.7;  ///< how much of the uniform cell on either side is used; beyond it the blur of the next cell shows
 constexpr double kReachPx = 6;            ///< enough for both plateaus at any blur that tags are decoded in
 constexpr double kCornerClearancePx = 3;  ///< where the other edge's blur no longer shows
 constexpr double kLargestShiftPx = 2;

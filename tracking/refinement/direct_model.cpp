@@ -207,7 +207,7 @@ bool DirectModel::guess_light(DirectParameters& at) const {
       if (sampled) (sampled->pattern.white > 0.5 ? whites : blacks).push_back(pixel.code);
     }
     if (whites.empty() || blacks.empty()) return false;
-    // Of the lighter half and the darker half: what the blur mixes lies in the other halves.
+    // The quartiles are the middles of the darker and the lighter half: what the blur mixes lies in the other halves.
     at.light[i].black = response_->linear_of(quantile(std::move(blacks), 0.25));
     at.light[i].gain = response_->linear_of(quantile(std::move(whites), 0.75)) - at.light[i].black;
     if (!(at.light[i].gain > 0)) return false;

@@ -31,7 +31,7 @@ struct TagPart {
 struct DirectParameters {
   RigidTransform camera_from_target;
   Covariance2 blur_px2;
-  std::vector<TagLight> light;  ///< of each part
+  std::vector<TagLight> light;  ///< one for each part
 };
 
 /// Geman and McClure's: residuals far beyond `scale` stop counting.

@@ -34,7 +34,7 @@ std::vector<Residual> every(const std::vector<Residual>& residuals, std::size_t 
   return some;
 }
 
-/// Of the edge pixels: plateaus would hide that edges are off.
+/// Noise of the edge pixels alone: plateaus would hide that edges are off.
 double robust_noise(const std::vector<Residual>& residuals, double least) {
   std::vector<double> sizes;
   sizes.reserve(residuals.size());
@@ -130,9 +130,9 @@ struct DirectRefiner::Impl {
     DirectParameters at;
     DirectModel::Linearized linearized;
     double noise = 0;
-    double kept_share = 1;  ///< of the pixels: the others are covered
+    double kept_share = 1;  ///< the pixels that are not occluded
     bool is_another_print = false;
-    bool is_light_even = false;  ///< not yet let slope: a dark cover would pass for a slope far from the solution
+    bool is_light_even = false;  ///< not yet let slope: a dark occluder would pass for a slope far from the solution
   };
 
   DirectModel::Linearized linearize(const DirectModel& model, const DirectParameters& at, const Covariance2& usual_blur,
@@ -164,7 +164,7 @@ struct DirectRefiner::Impl {
     }
   }
 
-  /// With the noise that the start has, then with what is left of it, as long as it falls: under a lenient loss, what covers a
+  /// With the noise that the start has, then with what is left of it, as long as it falls: under a lenient loss, what occludes a
   /// part of the tag still pulls.
   Fit solve(const DirectModel& model, const DirectParameters& start) const {
     constexpr int kMaxRounds = 6;
@@ -187,18 +187,18 @@ struct DirectRefiner::Impl {
     return fit;
   }
 
-  /// As solve(), then without what is covered: `model` keeps the pixels that count.
-  Fit solve_uncovered(DirectModel& model, const DirectParameters& start) const {
-    constexpr int kMaxRounds = 2;  // the first leaves less noise, in which fainter covers show
+  /// As solve(), then without what is occluded: `model` keeps the pixels that count.
+  Fit solve_unoccluded(DirectModel& model, const DirectParameters& start) const {
+    constexpr int kMaxRounds = 2;  // the first leaves less noise, in which fainter occluders show
     Fit fit = solve(model, start);
     fit.is_another_print = shows_another_print(camera, *response, model.parts(), fit.at);
     for (int round = 0; round < kMaxRounds && !fit.is_another_print; ++round) {
-      auto uncovered = leave_out_covered(camera, model, fit.at, fit.linearized.residuals, {kLossSigmas * fit.noise});
-      if (!uncovered) break;
-      model = DirectModel(camera, *response, std::move(uncovered->parts));
+      auto unoccluded = leave_out_occluded(camera, model, fit.at, fit.linearized.residuals, {kLossSigmas * fit.noise});
+      if (!unoccluded) break;
+      model = DirectModel(camera, *response, std::move(unoccluded->parts));
       DirectParameters again = fit.at;
-      again.light = uncovered->light;
-      const double kept_share = fit.kept_share * uncovered->kept_share;
+      again.light = unoccluded->light;
+      const double kept_share = fit.kept_share * unoccluded->kept_share;
       fit = solve(model, again);
       fit.kept_share = kept_share;
     }
@@ -269,7 +269,7 @@ struct DirectRefiner::Impl {
       }
     if (!(edges > 0) || !(n > 0)) return std::nullopt;
     result.inlier_share = inliers / edges;
-    result.covered_share = 1 - fit.kept_share;
+    result.occluded_share = 1 - fit.kept_share;
     result.explained = 1 - left / std::max(squares - sum * sum / n, 1e-12);
     result.log_likelihood = log_likelihood(fit.linearized.residuals, fit.noise);
     return result;
@@ -290,7 +290,7 @@ std::optional<DirectFit> DirectRefiner::refine(const LumaView& luma, const Direc
   if (!impl.approach(luma, at, start.error_px)) return std::nullopt;
   auto model = impl.model_with_light(luma, at, {at.blur_px2, std::min(start.error_px, 1.0) / 2, 1, kMaxPixels});
   if (!model) return std::nullopt;
-  Impl::Fit fit = impl.solve_uncovered(*model, at);
+  Impl::Fit fit = impl.solve_unoccluded(*model, at);
   impl.last.emplace(Impl::Solved{std::move(*model), std::move(fit)});
   return impl.judged(impl.last->model, impl.last->fit);
 }

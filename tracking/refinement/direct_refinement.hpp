@@ -26,8 +26,8 @@ struct DirectFit {
   Covariance2 blur_px2;
   double white_linear = 0, black_linear = 0;  ///< the first seen tag's middle: luma of its white and black, made linear
   double noise_codes = 0;                     ///< robust standard deviation of what the model leaves, in 8-bit codes
-  double covered_share = 0;                   ///< of the pixels: left out, with their surroundings, as something covers them
-  double inlier_share = 0;                    ///< of the other edge pixels, that fit within 3 standard deviations
+  double occluded_share = 0;                  ///< share of the pixels left out, as something is in front of them or near
+  double inlier_share = 0;                    ///< share of the other edge pixels that fit within 3 standard deviations
   double explained = 0;                       ///< share of the inliers' variance that the model explains, 0 to 1
   double log_likelihood = 0;                  ///< comparable among the fits of one call
 };

@@ -8,10 +8,10 @@
 namespace catchlight::tracking {
 namespace {
 
-constexpr double kFittingWeight = 0.4;  ///< mean weight of a cell's pixels below which it is covered
-constexpr double kMinPixels = 5;        ///< of a cell, to tell
+constexpr double kFittingWeight = 0.4;  ///< mean weight of a cell's pixels below which it is occluded
+constexpr double kMinPixels = 5;        ///< a cell needs so many to tell
 constexpr int kMinCells = 3;            ///< smaller faults are for the robust loss
-constexpr double kMinShare = 0.45;      ///< of the pixels, that have to stay: another print would match in as much as its border
+constexpr double kMinShare = 0.45;  ///< share of the pixels that has to stay: another print would match in as much as its border
 constexpr std::size_t kMinOfPart = 40;
 
 /// The cells of one part and the ring around them.
@@ -38,17 +38,17 @@ class CellMap {
     count_[index(place)] += 1;
   }
 
-  int covered_cells() const {
+  int occluded_cells() const {
     int cells = 0;
-    for (std::size_t cell = 0; cell < weight_.size(); ++cell) cells += is_covered(cell);
+    for (std::size_t cell = 0; cell < weight_.size(); ++cell) cells += is_occluded(cell);
     return cells;
   }
 
-  /// In a covered cell, or within half a cell of one.
+  /// In a occluded cell, or within half a cell of one.
   bool is_suspect(const glm::dvec2& place) const {
     constexpr double kReach = 0.5;
     for (const glm::dvec2& corner : {glm::dvec2(-kReach, -kReach), {kReach, -kReach}, {kReach, kReach}, {-kReach, kReach}})
-      if (is_covered(index(glm::clamp(place + corner, glm::dvec2(0), glm::dvec2(side_ - 0.001))))) return true;
+      if (is_occluded(index(glm::clamp(place + corner, glm::dvec2(0), glm::dvec2(side_ - 0.001))))) return true;
     return false;
   }
 
@@ -57,7 +57,7 @@ class CellMap {
     return static_cast<std::size_t>(static_cast<int>(place.y) * side_ + static_cast<int>(place.x));
   }
 
-  bool is_covered(std::size_t cell) const { return count_[cell] >= kMinPixels && weight_[cell] < kFittingWeight * count_[cell]; }
+  bool is_occluded(std::size_t cell) const { return count_[cell] >= kMinPixels && weight_[cell] < kFittingWeight * count_[cell]; }
 
   TagView view_;
   int margin_, side_;
@@ -71,7 +71,7 @@ struct Inverted {
 
 Inverted inverted_cells(const CameraModel& camera, const ResponseTable& response, const TagPart& part, const TagLight& light,
                         const RigidTransform& camera_from_target) {
-  constexpr double kMiddle = 0.3, kSame = 0.3;  // of a cell, from its middle; of white, from an ink
+  constexpr double kMiddle = 0.3, kSame = 0.3;  // how far from a cell's middle, in cells; how far from an ink, in white
   const int cells = part.pattern->cells_across();
   const TagView view(camera, camera_from_target * part.target_from_tag, part.size_m, cells);
   std::vector<double> sums(static_cast<std::size_t>(cells * cells)), counts(sums.size());
@@ -112,9 +112,9 @@ bool shows_another_print(const CameraModel& camera, const ResponseTable& respons
   return false;
 }
 
-std::optional<Uncovered> leave_out_covered(const CameraModel& camera, const DirectModel& model, const DirectParameters& at,
-                                           const std::vector<Residual>& residuals, const RobustLoss& loss) {
-  Uncovered result;
+std::optional<Unoccluded> leave_out_occluded(const CameraModel& camera, const DirectModel& model, const DirectParameters& at,
+                                             const std::vector<Residual>& residuals, const RobustLoss& loss) {
+  Unoccluded result;
   std::size_t index = 0, kept = 0;
   for (std::size_t i = 0; i < model.parts().size(); ++i) {
     const TagPart& part = model.parts()[i];
@@ -125,7 +125,7 @@ std::optional<Uncovered> leave_out_covered(const CameraModel& camera, const Dire
       places.push_back(map.place_of(pixel));
       if (residual.known && places.back()) map.add(*places.back(), loss.weight(residual.code));
     }
-    const bool is_whole = map.covered_cells() < kMinCells;
+    const bool is_whole = map.occluded_cells() < kMinCells;
     TagPart left{part.pattern, part.size_m, part.target_from_tag, {}};
     for (std::size_t k = 0; k < part.pixels.size(); ++k)
       if (is_whole || (places[k] && !map.is_suspect(*places[k]))) left.pixels.push_back(part.pixels[k]);

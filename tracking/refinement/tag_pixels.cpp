@@ -11,7 +11,7 @@ namespace {
 
 /// Farther from an edge, a pixel says nothing about its place; hardly anything beyond the second, where there are plenty.
 constexpr double kEdgeReachSigmas = 3, kShortReachSigmas = 2.3;
-constexpr double kPlateauShare = 0.125;  ///< of the plateaus' pixels, for the levels of white and black
+constexpr double kPlateauShare = 0.125;  ///< share of the plateaus' pixels that gives the levels of white and black
 /// Distance to the end of what is known of the print, where the paper may have been cut.
 constexpr double kClearanceCells = 0.3, kClearanceSigmas = 2.5;
 

@@ -12,7 +12,7 @@ namespace {
 
 /// Hands turn a camera at up to about this, rad/s².
 constexpr double kTurnAcceleration = 12;
-/// No single frame, and no single jolt, decides a path.
+/// No single frame, and no single jolt, decides a trajectory.
 constexpr double kMaxEvidence = 6, kMaxSurprise = 10;
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
@@ -29,15 +29,15 @@ double log_sum(double a, double b) {
 }
 
 /// What a frame says for one of its candidates, 0 for the best.
-double evidence(const PathFrame& frame, std::size_t candidate) {
+double evidence(const TrajectoryFrame& frame, std::size_t candidate) {
   double best = kNever;
   for (const PoseCandidate& each : frame.candidates) best = std::max(best, each.log_likelihood);
   return std::max(frame.candidates[candidate].log_likelihood - best, -kMaxEvidence);
 }
 
 /// How likely a third orientation is after two, up to a constant.
-double continuity(const PathFrame& first, std::size_t a, const PathFrame& second, std::size_t b, const PathFrame& third,
-                  std::size_t c) {
+double continuity(const TrajectoryFrame& first, std::size_t a, const TrajectoryFrame& second, std::size_t b,
+                  const TrajectoryFrame& third, std::size_t c) {
   const Unsteadiness turn = unsteady_turn({first.time_s, &first.candidates[a]}, {second.time_s, &second.candidates[b]},
                                           {third.time_s, &third.candidates[c]});
   const double lag_s = third.time_s - second.time_s;
@@ -47,7 +47,7 @@ double continuity(const PathFrame& first, std::size_t a, const PathFrame& second
 }
 
 /// Two orientations without a third before them: nearer is likelier.
-double closeness(const PathFrame& first, std::size_t a, const PathFrame& second, std::size_t b) {
+double closeness(const TrajectoryFrame& first, std::size_t a, const TrajectoryFrame& second, std::size_t b) {
   const double lag_s = std::max(second.time_s - first.time_s, 1e-3);
   const Unsteadiness turn = plain_turn(first.candidates[a], second.candidates[b]);
   constexpr double kTurnSpeed = 1.5;  // rad/s
@@ -57,14 +57,14 @@ double closeness(const PathFrame& first, std::size_t a, const PathFrame& second,
 
 class Chain {
  public:
-  explicit Chain(std::span<const PathFrame* const> frames) : frames_(frames) {
+  explicit Chain(std::span<const TrajectoryFrame* const> frames) : frames_(frames) {
     for (std::size_t i = 1; i < frames.size(); ++i) steps_.push_back(step(i));
   }
 
   std::vector<Branch> solve() const {
     const std::vector<Pairs> forward = pass(true), backward = pass_back(), best = pass(false);
     std::vector<Branch> branches(frames_.size());
-    // The likeliest path, from its end; then each frame's share of all the others.
+    // The likeliest sequence, from its end; then each frame's share of all the others.
     std::size_t now = 0, before = 0;
     double likeliest = kNever;
     for (std::size_t a = 0; a < 2; ++a)
@@ -106,7 +106,7 @@ class Chain {
 
   Step step(std::size_t i) const {
     Step result{all_never(), all_never()};
-    const PathFrame &last = *frames_[i - 1], &here = *frames_[i];
+    const TrajectoryFrame &last = *frames_[i - 1], &here = *frames_[i];
     for (std::size_t c = 0; c < here.candidates.size(); ++c)
       for (std::size_t b = 0; b < last.candidates.size(); ++b) {
         if (i == 1) {
@@ -114,7 +114,7 @@ class Chain {
             result[z][b][c] = evidence(last, b) + evidence(here, c) + closeness(last, b, here, c);
           continue;
         }
-        const PathFrame& first = *frames_[i - 2];
+        const TrajectoryFrame& first = *frames_[i - 2];
         for (std::size_t a = 0; a < first.candidates.size(); ++a)
           result[a][b][c] = evidence(here, c) + continuity(first, a, last, b, here, c);
       }
@@ -151,17 +151,17 @@ class Chain {
     return result;
   }
 
-  std::span<const PathFrame* const> frames_;
+  std::span<const TrajectoryFrame* const> frames_;
   std::vector<Step> steps_;
 };
 
 }  // namespace
 
-std::vector<Branch> choose_branches(std::span<const PathFrame* const> frames) {
+std::vector<Branch> choose_branches(std::span<const TrajectoryFrame* const> frames) {
   if (frames.empty()) return {};
   if (frames.size() > 1) return Chain(frames).solve();
   Branch only;
-  const PathFrame& frame = *frames[0];
+  const TrajectoryFrame& frame = *frames[0];
   if (frame.candidates.size() < 2) return {only};
   const double odds = frame.candidates[1].log_likelihood - frame.candidates[0].log_likelihood;
   only.candidate = odds > 0 ? 1 : 0;

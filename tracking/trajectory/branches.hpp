@@ -1,4 +1,4 @@
-// Which of two planar poses is the right one, decided over a whole path.
+// Which of two planar poses is the right one, decided over a whole trajectory.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 namespace catchlight::tracking {
 
 /// One frame's measurement: one or two candidates, or none where the tag was not seen.
-struct PathFrame {
+struct TrajectoryFrame {
   double time_s = 0;
   std::vector<PoseCandidate> candidates;
 };
@@ -19,8 +19,8 @@ struct Branch {
   double ambiguity = 0;  ///< probability that the other one is right, 0 where there is none
 };
 
-/// A hidden Markov chain of second order: what each frame's pixels say, and how steadily three frames turn. The likeliest path by
-/// Viterbi's algorithm, the doubt that is left by the forward-backward one. Every frame has candidates.
-std::vector<Branch> choose_branches(std::span<const PathFrame* const> frames);
+/// A hidden Markov chain of second order: what each frame's pixels say, and how steadily three frames turn. The likeliest
+/// sequence by Viterbi's algorithm, the ambiguity that is left by the forward-backward one. Every frame has candidates.
+std::vector<Branch> choose_branches(std::span<const TrajectoryFrame* const> frames);
 
 }  // namespace catchlight::tracking

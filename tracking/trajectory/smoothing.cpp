@@ -50,10 +50,10 @@ Levels likelihoods(const Unsteadiness& deviation, double lowest, double lag_s, d
 }
 
 /// The quietest levels that explain the motion around each measurement, at one spacing of the triples.
-void raise_to_quietest(std::span<const TimedCandidate> path, const std::vector<Levels>& at_triples, std::size_t spacing,
+void raise_to_quietest(std::span<const TimedCandidate> trajectory, const std::vector<Levels>& at_triples, std::size_t spacing,
                        double lowest, std::vector<double>& levels) {
   const std::size_t reach = std::max(spacing, kWindowFrames);
-  for (std::size_t i = 0; i < path.size(); ++i) {
+  for (std::size_t i = 0; i < trajectory.size(); ++i) {
     Levels sum{};
     for (std::size_t k = 0; k < at_triples.size(); ++k) {
       const std::size_t middle = k + spacing;
@@ -68,22 +68,22 @@ void raise_to_quietest(std::span<const TimedCandidate> path, const std::vector<L
 
 /// Real accelerations last for a while: over neighbouring frames they drown in noise, over more they stand out. So triples of
 /// all spacings are asked, and the most restless answer counts.
-std::vector<Unrest> unrest_of(std::span<const TimedCandidate> path) {
-  std::vector<double> turn(path.size(), kLowestTurn), shift(path.size(), kLowestShift);
-  for (std::size_t spacing = 1; spacing <= kWidestSpacing && 2 * spacing < path.size(); spacing *= 2) {
+std::vector<Unrest> unrest_of(std::span<const TimedCandidate> trajectory) {
+  std::vector<double> turn(trajectory.size(), kLowestTurn), shift(trajectory.size(), kLowestShift);
+  for (std::size_t spacing = 1; spacing <= kWidestSpacing && 2 * spacing < trajectory.size(); spacing *= 2) {
     std::vector<Levels> turns, shifts;
-    for (std::size_t i = 2 * spacing; i < path.size(); ++i) {
-      const auto timed = [&](std::size_t k) { return TimedPose{path[k].time_s, &path[k].pose}; };
+    for (std::size_t i = 2 * spacing; i < trajectory.size(); ++i) {
+      const auto timed = [&](std::size_t k) { return TimedPose{trajectory[k].time_s, &trajectory[k].pose}; };
       const TimedPose first = timed(i - 2 * spacing), second = timed(i - spacing), third = timed(i);
       const double lag_s = third.time_s - second.time_s, lag_before_s = second.time_s - first.time_s;
       turns.push_back(likelihoods(unsteady_turn(first, second, third), kLowestTurn, lag_s, lag_before_s));
       shifts.push_back(likelihoods(unsteady_shift(first, second, third), kLowestShift, lag_s, lag_before_s));
     }
-    raise_to_quietest(path, turns, spacing, kLowestTurn, turn);
-    raise_to_quietest(path, shifts, spacing, kLowestShift, shift);
+    raise_to_quietest(trajectory, turns, spacing, kLowestTurn, turn);
+    raise_to_quietest(trajectory, shifts, spacing, kLowestShift, shift);
   }
   std::vector<Unrest> result;
-  for (std::size_t i = 0; i < path.size(); ++i) result.push_back({turn[i], shift[i]});
+  for (std::size_t i = 0; i < trajectory.size(); ++i) result.push_back({turn[i], shift[i]});
   return result;
 }
 
@@ -161,7 +161,7 @@ SmoothedPose result_of(const State& state) {
   return result;
 }
 
-/// A moment of the path: a measurement, or a time that a pose is asked for, or both.
+/// A moment of the trajectory: a measurement, or a time that a pose is asked for, or both.
 struct Moment {
   double time_s;
   const PoseCandidate* measured = nullptr;
@@ -169,7 +169,7 @@ struct Moment {
   bool asked = false;
 };
 
-/// Of the motion from one measurement to the next: between the two, whichever way time runs.
+/// The unrest of the motion from one measurement to the next lies between theirs, whichever way time runs.
 Unrest between(const Unrest& a, const Unrest& b) {
   return {std::sqrt(a.turn * b.turn), std::sqrt(a.shift * b.shift)};
 }
@@ -194,7 +194,7 @@ std::vector<Moment> moments_of(std::span<const TimedCandidate> measured, std::sp
 
 }  // namespace
 
-std::vector<SmoothedPose> smooth_path(std::span<const TimedCandidate> measured, std::span<const double> at_s) {
+std::vector<SmoothedPose> smooth_trajectory(std::span<const TimedCandidate> measured, std::span<const double> at_s) {
   const std::vector<Moment> moments = moments_of(measured, at_s);
   std::vector<State> filtered;
   std::vector<Prediction> predicted(moments.size());

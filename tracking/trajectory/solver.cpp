@@ -6,17 +6,17 @@ namespace catchlight::tracking {
 namespace {
 
 /// Solves the frames of [begin, end), the first of which has candidates, and so has every one after at most a short gap.
-void solve_stretch(std::span<const PathFrame> frames, std::span<SolvedPose> poses) {
-  std::vector<const PathFrame*> seen;
+void solve_stretch(std::span<const TrajectoryFrame> frames, std::span<SolvedPose> poses) {
+  std::vector<const TrajectoryFrame*> seen;
   std::vector<double> times_s;
-  for (const PathFrame& frame : frames) {
+  for (const TrajectoryFrame& frame : frames) {
     times_s.push_back(frame.time_s);
     if (!frame.candidates.empty()) seen.push_back(&frame);
   }
   const std::vector<Branch> branches = choose_branches(seen);
   std::vector<TimedCandidate> measured;
   for (std::size_t i = 0; i < seen.size(); ++i) measured.push_back({seen[i]->time_s, seen[i]->candidates[branches[i].candidate]});
-  const std::vector<SmoothedPose> smoothed = smooth_path(measured, times_s);
+  const std::vector<SmoothedPose> smoothed = smooth_trajectory(measured, times_s);
   std::size_t next = 0;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const bool is_seen = !frames[i].candidates.empty();
@@ -28,8 +28,8 @@ void solve_stretch(std::span<const PathFrame> frames, std::span<SolvedPose> pose
 
 }  // namespace
 
-std::vector<SolvedPose> solve_path(std::span<const PathFrame> frames, double coast_s) {
-  constexpr double kRounding_s = 1e-6;  // of frame times
+std::vector<SolvedPose> solve_trajectory(std::span<const TrajectoryFrame> frames, double coast_s) {
+  constexpr double kRounding_s = 1e-6;  // frame times are rounded
   std::vector<SolvedPose> poses(frames.size());
   std::size_t begin = 0;
   while (begin < frames.size()) {

@@ -1,4 +1,4 @@
-// The whole path of recorded footage, from what each frame alone allows.
+// The whole trajectory of recorded footage, from what each frame alone allows.
 #pragma once
 
 #include <span>
@@ -20,6 +20,6 @@ struct SolvedPose {
 
 /// Chooses between the planar poses over each stretch of frames, smooths it by the covariances, and bridges gaps of up to
 /// `coast_s` from both sides; after a stretch's end, its motion goes on for as long. Frames in rising order of time.
-std::vector<SolvedPose> solve_path(std::span<const PathFrame> frames, double coast_s);
+std::vector<SolvedPose> solve_trajectory(std::span<const TrajectoryFrame> frames, double coast_s);
 
 }  // namespace catchlight::tracking

@@ -18,13 +18,13 @@ struct TimedPose {
   const PoseCandidate* pose;
 };
 
-/// Of the third orientation (rad) from where the first two, turning on steadily, lead.
+/// How far the third orientation (rad) is from where the first two, turning on steadily, lead.
 Unsteadiness unsteady_turn(const TimedPose& first, const TimedPose& second, const TimedPose& third);
 
-/// Of the third position (m).
+/// How far the third position (m) is from where the first two lead.
 Unsteadiness unsteady_shift(const TimedPose& first, const TimedPose& second, const TimedPose& third);
 
-/// Of the second orientation (rad) from the first.
+/// How far the second orientation (rad) is from the first.
 Unsteadiness plain_turn(const PoseCandidate& first, const PoseCandidate& second);
 
 /// Log of the normal density of the deviation, whose true part has `variance` per axis.

@@ -21,7 +21,7 @@ constexpr double kSize_m = 0.08;
 
 using Error = cv::Matx<double, 6, 1>;
 
-/// Of a refitted pose: a turn about the camera's axes through the tag's origin, then a shift.
+/// Error of a refitted pose: a turn about the camera's axes through the tag's origin, then a shift.
 Error error_of(const RigidTransform& fitted, const RigidTransform& truth) {
   const glm::dvec3 turn = rotation_vector(fitted.rotation * glm::transpose(truth.rotation));
   const glm::dvec3 shift = fitted.translation_m - truth.translation_m;

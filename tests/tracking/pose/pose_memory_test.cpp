@@ -1,4 +1,4 @@
-// The choice between two planar poses, on paths whose truth is known.
+// The choice between two planar poses, on trajectories whose truth is known.
 #include "tracking/pose/pose_memory.hpp"
 #include "catchlight/rigid_transform.hpp"
 #include "tests/support/pose_error.hpp"
@@ -29,10 +29,10 @@ bool is_wrong(std::span<const PoseCandidate> poses, std::size_t chosen, const Ri
   return turn_between_deg(poses[chosen].camera_from_tag, truth) > turn_between_deg(poses[1 - chosen].camera_from_tag, truth);
 }
 
-/// A hand-held path around a tag that is 32 px large and nearly frontal: tilts wander as sums of slow waves.
-class WanderingPath {
+/// A hand-held trajectory around a tag that is 32 px large and nearly frontal: tilts wander as sums of slow waves.
+class WanderingTrajectory {
  public:
-  explicit WanderingPath(std::mt19937& random) {
+  explicit WanderingTrajectory(std::mt19937& random) {
     std::uniform_real_distribution<double> unit(0, 1);
     for (Wave& wave : waves_) wave = {6 + 8 * unit(random), 0.15 + 0.45 * unit(random), 2 * M_PI * unit(random)};
   }
@@ -52,17 +52,17 @@ struct WrongShares {
   double alone = 0, with_memory = 0;
 };
 
-/// Of the frames whose two poses are further apart than their noise: the share in which the false one is taken.
+/// The share of frames in which the false pose is taken, among those whose two poses are further apart than their noise.
 WrongShares wrong_shares(double noise_px) {
   std::mt19937 random(7);
   int ambiguous = 0, wrong_alone = 0, wrong_with_memory = 0;
   for (int path_number = 0; path_number < 100; ++path_number) {
-    const WanderingPath path(random);
+    const WanderingTrajectory trajectory(random);
     PoseMemory memory;
     CornerNoise corner_noise;
     for (int frame = 0; frame < 60; ++frame) {
       const double time_s = frame * kFrame_s;
-      const RigidTransform truth = path.at(time_s);
+      const RigidTransform truth = trajectory.at(time_s);
       const auto poses = corner_noise.candidates(plain_camera(), seen(truth, noise_px, random), SyntheticTag().target.size_m);
       if (poses.empty()) continue;
       const std::size_t chosen = memory.choose(poses, time_s);
@@ -78,14 +78,14 @@ WrongShares wrong_shares(double noise_px) {
   return shares;
 }
 
-TEST(PoseMemory, OnAHundredPathsOfASmallNearFrontalTagItErrsAQuarterAsOften) {
+TEST(PoseMemory, OnAHundredTrajectoriesOfASmallNearFrontalTagItErrsAQuarterAsOften) {
   const WrongShares shares = wrong_shares(0.1);
-  EXPECT_GT(shares.alone, 0.03) << "the paths are too easy to tell anything";
+  EXPECT_GT(shares.alone, 0.03) << "the trajectories are too easy to tell anything";
   EXPECT_LT(shares.with_memory, shares.alone / 4);
 }
 
 TEST(PoseMemory, WithTwiceTheNoiseItErrsAThirdAsOften) {
-  // Paths of two seconds: what remains is mostly their first frames, before evidence has added up.
+  // Trajectories of two seconds: what remains is mostly their first frames, before evidence has added up.
   const WrongShares shares = wrong_shares(0.2);
   EXPECT_LT(shares.with_memory, shares.alone / 3);
 }

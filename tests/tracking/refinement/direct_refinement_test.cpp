@@ -142,7 +142,7 @@ TEST(DirectRefinement, TellsTheTagsWhiteBlackAndNoise) {
   EXPECT_NEAR(found->black_linear, 0.05, 0.002);
   EXPECT_NEAR(found->noise_codes, 5, 0.4);
   EXPECT_GT(found->inlier_share, 0.99);
-  EXPECT_EQ(found->covered_share, 0);
+  EXPECT_EQ(found->occluded_share, 0);
 }
 
 /// The renderer blurs by a Gaussian, and the pixel's square adds 1/12 px².

@@ -1,4 +1,4 @@
-// The choice between two planar poses over a path, with evidence made to order. The true candidate comes first unless said.
+// The choice between two planar poses over a trajectory, with evidence made to order. The true candidate comes first unless said.
 #include "tracking/trajectory/branches.hpp"
 
 #include <gtest/gtest.h>
@@ -12,9 +12,9 @@ namespace {
 
 using namespace path_test;
 
-std::vector<Branch> chosen(const std::vector<PathFrame>& frames) {
-  std::vector<const PathFrame*> pointers;
-  for (const PathFrame& frame : frames) pointers.push_back(&frame);
+std::vector<Branch> chosen(const std::vector<TrajectoryFrame>& frames) {
+  std::vector<const TrajectoryFrame*> pointers;
+  for (const TrajectoryFrame& frame : frames) pointers.push_back(&frame);
   return choose_branches(pointers);
 }
 
@@ -26,8 +26,8 @@ std::vector<std::size_t> candidates_of(const std::vector<Branch>& branches) {
 
 /// At 30 frames a second; `tilt_deg` and `favour` of the frame's number.
 template <class Tilt, class Favour>
-std::vector<PathFrame> path(int frames, Tilt&& tilt_deg, Favour&& favour) {
-  std::vector<PathFrame> result;
+std::vector<TrajectoryFrame> trajectory(int frames, Tilt&& tilt_deg, Favour&& favour) {
+  std::vector<TrajectoryFrame> result;
   for (int i = 0; i < frames; ++i) result.push_back(ambiguous(i * kFrame_s, tilt_deg(i), favour(i)));
   return result;
 }
@@ -36,11 +36,11 @@ double resting(int) {
   return 20;
 }
 
-TEST(PathBranches, AnEmptyPathHasNone) {
+TEST(TrajectoryBranches, AnEmptyTrajectoryHasNone) {
   EXPECT_TRUE(choose_branches({}).empty());
 }
 
-TEST(PathBranches, ASingleFrameTakesTheLikelierAndDoubtsAsItsPixelsDo) {
+TEST(TrajectoryBranches, ASingleFrameTakesTheLikelierAndDoubtsAsItsPixelsDo) {
   const Branch right = chosen({ambiguous(0, 20, 2)})[0], other = chosen({ambiguous(0, 20, -2)})[0];
   EXPECT_EQ(right.candidate, 0u);
   EXPECT_EQ(other.candidate, 1u);
@@ -48,13 +48,13 @@ TEST(PathBranches, ASingleFrameTakesTheLikelierAndDoubtsAsItsPixelsDo) {
   EXPECT_EQ(chosen({{0, {measured(tilted(20))}}})[0].ambiguity, 0);
 }
 
-TEST(PathBranches, AWrongFirstChoiceIsFoundOutByLaterFrames) {
-  const auto branches = chosen(path(20, resting, [](int i) { return i == 0 ? -4 : 0.8; }));
+TEST(TrajectoryBranches, AWrongFirstChoiceIsFoundOutByLaterFrames) {
+  const auto branches = chosen(trajectory(20, resting, [](int i) { return i == 0 ? -4 : 0.8; }));
   EXPECT_EQ(candidates_of(branches), std::vector<std::size_t>(20, 0)) << "the first frame too";
 }
 
-TEST(PathBranches, TheFirstQuarterMisledIsFoundOutByTheRest) {
-  const auto branches = chosen(path(40, resting, [](int i) { return i < 10 ? -0.5 : 0.4; }));
+TEST(TrajectoryBranches, TheFirstQuarterMisledIsFoundOutByTheRest) {
+  const auto branches = chosen(trajectory(40, resting, [](int i) { return i < 10 ? -0.5 : 0.4; }));
   EXPECT_EQ(candidates_of(branches), std::vector<std::size_t>(40, 0));
 }
 
@@ -62,39 +62,39 @@ TEST(PathBranches, TheFirstQuarterMisledIsFoundOutByTheRest) {
 template <class Favour>
 int wrong_frames(Favour&& favour) {
   const auto tilt_deg = [](int i) { return 30.0 - 2 * i; };
-  const auto branches = chosen(path(31, tilt_deg, favour));
+  const auto branches = chosen(trajectory(31, tilt_deg, favour));
   int wrong = 0;
   for (int i = 0; i < 31; ++i) wrong += branches[static_cast<std::size_t>(i)].candidate != 0 && std::abs(tilt_deg(i)) > 6;
   return wrong;
 }
 
-TEST(PathBranches, EvidencePassesThroughTheFrontalViewForward) {
+TEST(TrajectoryBranches, EvidencePassesThroughTheFrontalViewForward) {
   EXPECT_EQ(wrong_frames([](int i) { return i < 5 ? 2.0 : 0; }), 0);
 }
 
-TEST(PathBranches, EvidencePassesThroughTheFrontalViewBackward) {
+TEST(TrajectoryBranches, EvidencePassesThroughTheFrontalViewBackward) {
   EXPECT_EQ(wrong_frames([](int i) { return i > 25 ? 2.0 : 0; }), 0);
 }
 
-TEST(PathBranches, AMisleadingFrameDoesNotFlipHoweverSureItIs) {
+TEST(TrajectoryBranches, AMisleadingFrameDoesNotFlipHoweverSureItIs) {
   for (const int misled : {0, 7, 15, 29}) {
-    const auto branches = chosen(path(30, resting, [&](int i) { return i == misled ? -1e6 : 0.5; }));
+    const auto branches = chosen(trajectory(30, resting, [&](int i) { return i == misled ? -1e6 : 0.5; }));
     EXPECT_EQ(candidates_of(branches), std::vector<std::size_t>(30, 0)) << "misled at " << misled;
   }
 }
 
-TEST(PathBranches, WhereNothingTellsTheDoubtIsOneHalf) {
-  for (const Branch& branch : chosen(path(12, resting, [](int) { return 0; }))) EXPECT_NEAR(branch.ambiguity, 0.5, 1e-9);
+TEST(TrajectoryBranches, WhereNothingTellsTheDoubtIsOneHalf) {
+  for (const Branch& branch : chosen(trajectory(12, resting, [](int) { return 0; }))) EXPECT_NEAR(branch.ambiguity, 0.5, 1e-9);
 }
 
-TEST(PathBranches, TheDoubtIsThatOfAllFramesTogether) {
+TEST(TrajectoryBranches, TheDoubtIsThatOfAllFramesTogether) {
   // A tag at rest does not change its branch: the odds of ten frames multiply, but for the jumps that are never quite impossible.
-  for (const Branch& branch : chosen(path(10, resting, [](int) { return 0.3; })))
+  for (const Branch& branch : chosen(trajectory(10, resting, [](int) { return 0.3; })))
     EXPECT_NEAR(branch.ambiguity, 1 / (1 + std::exp(10 * 0.3)), 1e-3);
 }
 
-TEST(PathBranches, FramesWithOnePoseAnchorTheirNeighbours) {
-  auto frames = path(21, resting, [](int) { return 0; });
+TEST(TrajectoryBranches, FramesWithOnePoseAnchorTheirNeighbours) {
+  auto frames = trajectory(21, resting, [](int) { return 0; });
   frames[10].candidates.pop_back();
   const auto branches = chosen(frames);
   EXPECT_EQ(candidates_of(branches), std::vector<std::size_t>(21, 0));
@@ -102,8 +102,8 @@ TEST(PathBranches, FramesWithOnePoseAnchorTheirNeighbours) {
   EXPECT_EQ(branches[10].ambiguity, 0);
 }
 
-TEST(PathBranches, PosesAreFollowedWhicheverComesFirst) {
-  auto frames = path(20, resting, [](int) { return 0.5; });
+TEST(TrajectoryBranches, PosesAreFollowedWhicheverComesFirst) {
+  auto frames = trajectory(20, resting, [](int) { return 0.5; });
   std::vector<std::size_t> expected(20, 0);
   for (std::size_t i = 0; i < 20; i += 3) {
     std::swap(frames[i].candidates[0], frames[i].candidates[1]);
@@ -112,9 +112,9 @@ TEST(PathBranches, PosesAreFollowedWhicheverComesFirst) {
   EXPECT_EQ(candidates_of(chosen(frames)), expected);
 }
 
-TEST(PathBranches, OfTwoSteadyTurnsThatCrossTheSteadierOneIsRight) {
+TEST(TrajectoryBranches, OfTwoSteadyTurnsThatCrossTheSteadierOneIsRight) {
   // No pixel tells; but only one branch turns on evenly: the other one's tilt is bent by the wobble of its mirror image.
-  std::vector<PathFrame> frames;
+  std::vector<TrajectoryFrame> frames;
   for (int i = 0; i < 40; ++i) {
     const double tilt_deg = 25 - 1.2 * i, bent_deg = -tilt_deg + (i % 2 ? 4 : -4);
     frames.push_back({i * kFrame_s, {measured(tilted(tilt_deg), {0.01, 1e-4}), measured(tilted(bent_deg), {0.01, 1e-4})}});
@@ -124,12 +124,12 @@ TEST(PathBranches, OfTwoSteadyTurnsThatCrossTheSteadierOneIsRight) {
   EXPECT_LT(branches[3].ambiguity, 0.05);
 }
 
-TEST(PathBranches, TimeRunningBackwardMakesTheSameChoice) {
-  auto frames = path(
+TEST(TrajectoryBranches, TimeRunningBackwardMakesTheSameChoice) {
+  auto frames = trajectory(
       30, [](int i) { return 30.0 - 2 * i; }, [](int i) { return i % 5 == 0 ? -0.4 : 0.5; });
   const auto forward = candidates_of(chosen(frames));
   std::reverse(frames.begin(), frames.end());
-  for (PathFrame& frame : frames) frame.time_s = -frame.time_s;
+  for (TrajectoryFrame& frame : frames) frame.time_s = -frame.time_s;
   auto backward = candidates_of(chosen(frames));
   std::reverse(backward.begin(), backward.end());
   // Within 2° of frontal both poses are nearly one: either may be taken.
@@ -139,8 +139,8 @@ TEST(PathBranches, TimeRunningBackwardMakesTheSameChoice) {
   }
 }
 
-TEST(PathBranches, RepeatedTimesAndHugeOddsStayFinite) {
-  std::vector<PathFrame> frames;
+TEST(TrajectoryBranches, RepeatedTimesAndHugeOddsStayFinite) {
+  std::vector<TrajectoryFrame> frames;
   for (int i = 0; i < 12; ++i) frames.push_back(ambiguous((i / 3) * kFrame_s, 20, i % 2 ? 1e300 : 0.5));
   for (const Branch& branch : chosen(frames)) {
     EXPECT_EQ(branch.candidate, 0u);

@@ -1,4 +1,4 @@
-// Smoothing on paths whose truth is known: nothing where measurements are sharp, averaging where the camera rests, no harm
+// Smoothing on trajectories whose truth is known: nothing where measurements are sharp, averaging where the camera rests, no harm
 // between.
 #include "tracking/trajectory/smoothing.hpp"
 #include "catchlight/rigid_transform.hpp"
@@ -14,23 +14,23 @@ namespace {
 
 using namespace path_test;
 
-std::vector<double> times_of(const std::vector<TimedCandidate>& path) {
+std::vector<double> times_of(const std::vector<TimedCandidate>& trajectory) {
   std::vector<double> times_s;
-  for (const TimedCandidate& each : path) times_s.push_back(each.time_s);
+  for (const TimedCandidate& each : trajectory) times_s.push_back(each.time_s);
   return times_s;
 }
 
-std::vector<SmoothedPose> smoothed(const std::vector<TimedCandidate>& path) {
-  return smooth_path(path, times_of(path));
+std::vector<SmoothedPose> smoothed(const std::vector<TimedCandidate>& trajectory) {
+  return smooth_trajectory(trajectory, times_of(trajectory));
 }
 
 /// `truth` of time, seen with noise at 30 frames a second.
 template <class Truth>
 std::vector<TimedCandidate> noisy(int frames, const Sigma& sigma, unsigned seed, Truth&& truth) {
   Noise noise(seed);
-  std::vector<TimedCandidate> path;
-  for (int i = 0; i < frames; ++i) path.push_back({i * kFrame_s, noise.measured(truth(i * kFrame_s), sigma)});
-  return path;
+  std::vector<TimedCandidate> trajectory;
+  for (int i = 0; i < frames; ++i) trajectory.push_back({i * kFrame_s, noise.measured(truth(i * kFrame_s), sigma)});
+  return trajectory;
 }
 
 struct Rms {
@@ -56,55 +56,55 @@ void expect_steady(const std::vector<SmoothedPose>& poses, const std::vector<dou
   }
 }
 
-TEST(PathSmoothing, SteadyMotionComesOutUntouched) {
+TEST(TrajectorySmoothing, SteadyMotionComesOutUntouched) {
   for (const Sigma sigma : {Sigma{1e-4, 1e-5}, Sigma{1e-3, 1e-4}}) {
-    std::vector<TimedCandidate> path;
-    for (int i = 0; i < 60; ++i) path.push_back({i * kFrame_s, measured(steady(i * kFrame_s), sigma)});
-    expect_steady(smoothed(path), times_of(path));
+    std::vector<TimedCandidate> trajectory;
+    for (int i = 0; i < 60; ++i) trajectory.push_back({i * kFrame_s, measured(steady(i * kFrame_s), sigma)});
+    expect_steady(smoothed(trajectory), times_of(trajectory));
   }
 }
 
-TEST(PathSmoothing, SteadyMotionOfAnUncertainTagComesOutToAThousandthOfThat) {
+TEST(TrajectorySmoothing, SteadyMotionOfAnUncertainTagComesOutToAThousandthOfThat) {
   // What is expected of its speed before the first frame, 3 rad/s, pulls a little.
   const Sigma vague{1e-2, 1e-3};
-  std::vector<TimedCandidate> path;
-  for (int i = 0; i < 60; ++i) path.push_back({i * kFrame_s, measured(steady(i * kFrame_s), vague)});
-  expect_steady(smoothed(path), times_of(path), 1e-3 * vague.turn_rad);
+  std::vector<TimedCandidate> trajectory;
+  for (int i = 0; i < 60; ++i) trajectory.push_back({i * kFrame_s, measured(steady(i * kFrame_s), vague)});
+  expect_steady(smoothed(trajectory), times_of(trajectory), 1e-3 * vague.turn_rad);
 }
 
-TEST(PathSmoothing, SteadyMotionAtAVariableFrameRateComesOutUntouched) {
-  std::vector<TimedCandidate> path;
+TEST(TrajectorySmoothing, SteadyMotionAtAVariableFrameRateComesOutUntouched) {
+  std::vector<TimedCandidate> trajectory;
   double time_s = 0;
   for (int i = 0; i < 60; ++i) {
     time_s += std::array{0.008, 0.04, 0.017, 0.1}[static_cast<std::size_t>(i * 7 % 4)];
-    path.push_back({time_s, measured(steady(time_s))});
+    trajectory.push_back({time_s, measured(steady(time_s))});
   }
-  expect_steady(smoothed(path), times_of(path));
+  expect_steady(smoothed(trajectory), times_of(trajectory));
 }
 
-TEST(PathSmoothing, AGapIsBridgedOnTheTrueLine) {
-  std::vector<TimedCandidate> path;
+TEST(TrajectorySmoothing, AGapIsBridgedOnTheTrueLine) {
+  std::vector<TimedCandidate> trajectory;
   std::vector<double> times_s;
   for (int i = 0; i < 40; ++i) {
     times_s.push_back(i * kFrame_s);
-    if (i < 15 || i >= 21) path.push_back({i * kFrame_s, measured(steady(i * kFrame_s))});
+    if (i < 15 || i >= 21) trajectory.push_back({i * kFrame_s, measured(steady(i * kFrame_s))});
   }
-  expect_steady(smooth_path(path, times_s), times_s);
+  expect_steady(smooth_trajectory(trajectory, times_s), times_s);
 }
 
-TEST(PathSmoothing, AfterTheLastMeasurementTheMotionGoesOn) {
-  std::vector<TimedCandidate> path;
-  for (int i = 0; i < 30; ++i) path.push_back({i * kFrame_s, measured(steady(i * kFrame_s))});
+TEST(TrajectorySmoothing, AfterTheLastMeasurementTheMotionGoesOn) {
+  std::vector<TimedCandidate> trajectory;
+  for (int i = 0; i < 30; ++i) trajectory.push_back({i * kFrame_s, measured(steady(i * kFrame_s))});
   const std::vector<double> later_s{30 * kFrame_s, 31 * kFrame_s, 35 * kFrame_s};
-  const auto poses = smooth_path(path, later_s);
+  const auto poses = smooth_trajectory(trajectory, later_s);
   expect_steady(poses, later_s, 1e-5);
   EXPECT_GT(poses[2].covariance[0], poses[0].covariance[0]) << "and is less and less certain";
 }
 
-TEST(PathSmoothing, OneMeasurementIsItself) {
+TEST(TrajectorySmoothing, OneMeasurementIsItself) {
   const PoseCandidate only = measured(steady(0));
   const std::vector<double> times_s{0, kFrame_s};
-  const auto poses = smooth_path(std::vector<TimedCandidate>{{0, only}}, times_s);
+  const auto poses = smooth_trajectory(std::vector<TimedCandidate>{{0, only}}, times_s);
   ASSERT_EQ(poses.size(), 2u);
   for (const SmoothedPose& pose : poses) {
     EXPECT_LT(turn_between_rad(pose.camera_from_tag, steady(0)), 1e-12);
@@ -113,64 +113,65 @@ TEST(PathSmoothing, OneMeasurementIsItself) {
   EXPECT_NEAR(poses[0].covariance[0], only.covariance[0], 1e-12);
 }
 
-TEST(PathSmoothing, TwoMeasurementsAreThemselves) {
-  // Any two poses lie on a steady path.
-  std::vector<TimedCandidate> path{{0, measured(steady(0))}, {kFrame_s, measured(steady(3 * kFrame_s))}};
-  const auto poses = smoothed(path);
+TEST(TrajectorySmoothing, TwoMeasurementsAreThemselves) {
+  // Any two poses lie on a steady trajectory.
+  std::vector<TimedCandidate> trajectory{{0, measured(steady(0))}, {kFrame_s, measured(steady(3 * kFrame_s))}};
+  const auto poses = smoothed(trajectory);
   EXPECT_LT(shift_between_m(poses[0].camera_from_tag, steady(0)), 1e-6);
   EXPECT_LT(shift_between_m(poses[1].camera_from_tag, steady(3 * kFrame_s)), 1e-6);
   EXPECT_LT(turn_between_rad(poses[1].camera_from_tag, steady(3 * kFrame_s)), 0.05 * Sigma().turn_rad);
 }
 
-TEST(PathSmoothing, RepeatedTimesAreFiniteAndAveraged) {
+TEST(TrajectorySmoothing, RepeatedTimesAreFiniteAndAveraged) {
   // A container that rounds its times to whole frames of another rate: every third frame has the time of the one before.
   Noise noise(5);
   const RigidTransform truth = steady(0);
-  std::vector<TimedCandidate> path;
-  for (int i = 0; i < 60; ++i) path.push_back({(i - (i % 3 == 2)) * kFrame_s, noise.measured(truth, {})});
-  const auto poses = smoothed(path);
-  ASSERT_EQ(poses.size(), path.size());
+  std::vector<TimedCandidate> trajectory;
+  for (int i = 0; i < 60; ++i) trajectory.push_back({(i - (i % 3 == 2)) * kFrame_s, noise.measured(truth, {})});
+  const auto poses = smoothed(trajectory);
+  ASSERT_EQ(poses.size(), trajectory.size());
   const auto at_rest = [&](double) { return truth; };
-  const Rms raw = rms_error(0, 60, at_rest, [&](int i) { return path[static_cast<std::size_t>(i)].pose.camera_from_tag; });
+  const Rms raw = rms_error(0, 60, at_rest, [&](int i) { return trajectory[static_cast<std::size_t>(i)].pose.camera_from_tag; });
   const Rms now = rms_error(0, 60, at_rest, [&](int i) { return poses[static_cast<std::size_t>(i)].camera_from_tag; });
   EXPECT_LT(now.turn_rad, raw.turn_rad / 2);
   EXPECT_LT(now.shift_m, raw.shift_m / 2);
 }
 
-TEST(PathSmoothing, ATagAtRestStopsJittering) {
+TEST(TrajectorySmoothing, ATagAtRestStopsJittering) {
   const auto at_rest = [](double) { return steady(0); };
   double turn = 0, shift = 0;
-  constexpr int kPaths = 10;
-  for (unsigned seed = 0; seed < kPaths; ++seed) {
-    const auto path = noisy(90, {}, seed, at_rest);
-    const auto poses = smoothed(path);
-    const Rms raw = rms_error(15, 75, at_rest, [&](int i) { return path[static_cast<std::size_t>(i)].pose.camera_from_tag; });
+  constexpr int kTrajectories = 10;
+  for (unsigned seed = 0; seed < kTrajectories; ++seed) {
+    const auto trajectory = noisy(90, {}, seed, at_rest);
+    const auto poses = smoothed(trajectory);
+    const Rms raw =
+        rms_error(15, 75, at_rest, [&](int i) { return trajectory[static_cast<std::size_t>(i)].pose.camera_from_tag; });
     const Rms now = rms_error(15, 75, at_rest, [&](int i) { return poses[static_cast<std::size_t>(i)].camera_from_tag; });
-    turn += now.turn_rad / raw.turn_rad / kPaths;
-    shift += now.shift_m / raw.shift_m / kPaths;
+    turn += now.turn_rad / raw.turn_rad / kTrajectories;
+    shift += now.shift_m / raw.shift_m / kTrajectories;
   }
   // Averaging 90 frames leaves 1/sqrt(90) = 0.11 of it; who must first find out that the tag rests may leave twice that.
   EXPECT_LT(turn, 2 / std::sqrt(90.0));
   EXPECT_LT(shift, 2 / std::sqrt(90.0));
 }
 
-TEST(PathSmoothing, AJoltMeasuredSharplyStays) {
+TEST(TrajectorySmoothing, AJoltMeasuredSharplyStays) {
   const Sigma sharp{1e-4, 1e-5};
   const auto jolted = [](double time_s) {
     RigidTransform pose = steady(0);
     if (time_s < 0.999) return pose;  // 3° and 1 cm within a frame
     return RigidTransform{rotation_matrix({0.05, 0, 0}) * pose.rotation, pose.translation_m + glm::dvec3(0, 0.01, 0)};
   };
-  std::vector<TimedCandidate> path;
-  for (int i = 0; i < 60; ++i) path.push_back({i * kFrame_s, measured(jolted(i * kFrame_s), sharp)});
-  const auto poses = smoothed(path);
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    EXPECT_LT(turn_between_rad(poses[i].camera_from_tag, path[i].pose.camera_from_tag), 1.5 * sharp.turn_rad) << i;
-    EXPECT_LT(shift_between_m(poses[i].camera_from_tag, path[i].pose.camera_from_tag), 1.5 * sharp.shift_m) << i;
+  std::vector<TimedCandidate> trajectory;
+  for (int i = 0; i < 60; ++i) trajectory.push_back({i * kFrame_s, measured(jolted(i * kFrame_s), sharp)});
+  const auto poses = smoothed(trajectory);
+  for (std::size_t i = 0; i < trajectory.size(); ++i) {
+    EXPECT_LT(turn_between_rad(poses[i].camera_from_tag, trajectory[i].pose.camera_from_tag), 1.5 * sharp.turn_rad) << i;
+    EXPECT_LT(shift_between_m(poses[i].camera_from_tag, trajectory[i].pose.camera_from_tag), 1.5 * sharp.shift_m) << i;
   }
 }
 
-TEST(PathSmoothing, TurningTheCameraTurnsThePath) {
+TEST(TrajectorySmoothing, TurningTheCameraTurnsTheTrajectory) {
   // Noise that differs by axis, so that the covariances have to turn too.
   const RigidTransform turned_from_camera{rotation_matrix({0.7, -1.1, 0.4}), {}};
   const auto turned_covariance = [&](const PoseCovariance& covariance) {
@@ -184,12 +185,12 @@ TEST(PathSmoothing, TurningTheCameraTurnsThePath) {
     }
     return result;
   };
-  auto path = noisy(40, {3e-3, 3e-4}, 2, steady);
-  for (TimedCandidate& each : path) each.pose.covariance[14] *= 9, each.pose.covariance[35] *= 25;
-  auto turned = path;
+  auto trajectory = noisy(40, {3e-3, 3e-4}, 2, steady);
+  for (TimedCandidate& each : trajectory) each.pose.covariance[14] *= 9, each.pose.covariance[35] *= 25;
+  auto turned = trajectory;
   for (TimedCandidate& each : turned)
     each.pose = {turned_from_camera * each.pose.camera_from_tag, turned_covariance(each.pose.covariance), 0};
-  const auto poses = smoothed(path), turned_poses = smoothed(turned);
+  const auto poses = smoothed(trajectory), turned_poses = smoothed(turned);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const RigidTransform expected = turned_from_camera * poses[i].camera_from_tag;
     EXPECT_LT(turn_between_rad(turned_poses[i].camera_from_tag, expected), 1e-8) << i;
@@ -197,12 +198,12 @@ TEST(PathSmoothing, TurningTheCameraTurnsThePath) {
   }
 }
 
-TEST(PathSmoothing, TimeRunningBackwardGivesTheSamePathBackward) {
+TEST(TrajectorySmoothing, TimeRunningBackwardGivesTheSameTrajectoryBackward) {
   const Sigma sigma{3e-3, 3e-4};
-  const auto path = noisy(60, sigma, 3, [](double) { return steady(0); });
-  std::vector<TimedCandidate> backward(path.rbegin(), path.rend());
+  const auto trajectory = noisy(60, sigma, 3, [](double) { return steady(0); });
+  std::vector<TimedCandidate> backward(trajectory.rbegin(), trajectory.rend());
   for (TimedCandidate& each : backward) each.time_s = -each.time_s;
-  const auto poses = smoothed(path), backward_poses = smoothed(backward);
+  const auto poses = smoothed(trajectory), backward_poses = smoothed(backward);
   double worst_turn = 0, worst_shift = 0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const RigidTransform& other = backward_poses[poses.size() - 1 - i].camera_from_tag;
@@ -232,21 +233,21 @@ RigidTransform stumbling(double time_s) {
   return poses.at(static_cast<std::size_t>(std::lround(time_s / kFrame_s)));
 }
 
-struct Path {
+struct Trajectory {
   const char* name;
   RigidTransform (*truth)(double);
   double most;  ///< of the raw error
 };
 
-class PathSmoothingOf : public ::testing::TestWithParam<Path> {};
+class TrajectorySmoothingOf : public ::testing::TestWithParam<Trajectory> {};
 
-TEST_P(PathSmoothingOf, NoiseOfAnySizeIsNotMadeWorse) {
+TEST_P(TrajectorySmoothingOf, NoiseOfAnySizeIsNotMadeWorse) {
   for (const double size : {0.03, 0.3, 1.0, 3.0, 10.0}) {
     const Sigma sigma{1e-3 * size, 2e-4 * size};
-    const auto path = noisy(240, sigma, 17, GetParam().truth);
-    const auto poses = smoothed(path);
+    const auto trajectory = noisy(240, sigma, 17, GetParam().truth);
+    const auto poses = smoothed(trajectory);
     const auto raw =
-        rms_error(0, 240, GetParam().truth, [&](int i) { return path[static_cast<std::size_t>(i)].pose.camera_from_tag; });
+        rms_error(0, 240, GetParam().truth, [&](int i) { return trajectory[static_cast<std::size_t>(i)].pose.camera_from_tag; });
     const auto now =
         rms_error(0, 240, GetParam().truth, [&](int i) { return poses[static_cast<std::size_t>(i)].camera_from_tag; });
     EXPECT_LT(now.turn_rad, GetParam().most * raw.turn_rad) << "noise of " << sigma.turn_rad << " rad";
@@ -254,12 +255,12 @@ TEST_P(PathSmoothingOf, NoiseOfAnySizeIsNotMadeWorse) {
   }
 }
 
-/// A path of steps is rougher than the white accelerations that stand for it: between noise far below the steps (left alone) and
-/// far above them (averaged), a few hundredths of the noise are added.
-INSTANTIATE_TEST_SUITE_P(Paths, PathSmoothingOf,
-                         ::testing::Values(Path{"Steady", steady, 1}, Path{"Swinging", swinging, 1},
-                                           Path{"Stumbling", stumbling, 1.05}),
-                         [](const auto& path) { return std::string(path.param.name); });
+/// A trajectory of steps is rougher than the white accelerations that stand for it: between noise far below the steps (left
+/// alone) and far above them (averaged), a few hundredths of the noise are added.
+INSTANTIATE_TEST_SUITE_P(Trajectories, TrajectorySmoothingOf,
+                         ::testing::Values(Trajectory{"Steady", steady, 1}, Trajectory{"Swinging", swinging, 1},
+                                           Trajectory{"Stumbling", stumbling, 1.05}),
+                         [](const auto& trajectory) { return std::string(trajectory.param.name); });
 
 }  // namespace
 }  // namespace catchlight::tracking

@@ -1,4 +1,4 @@
-// Measured paths made to order, for the tests of what is solved over time.
+// Measured trajectories made to order, for the tests of what is solved over time.
 #pragma once
 
 #include <cmath>
@@ -60,7 +60,7 @@ inline RigidTransform tilted(double tilt_deg) {
 }
 
 /// Both poses of a frame, the true one first; `favour` is by how much the pixels prefer it, in log-likelihood.
-inline PathFrame ambiguous(double time_s, double true_tilt_deg, double favour) {
+inline TrajectoryFrame ambiguous(double time_s, double true_tilt_deg, double favour) {
   return {time_s, {measured(tilted(true_tilt_deg), {0.01, 1e-4}, 0), measured(tilted(-true_tilt_deg), {0.01, 1e-4}, -favour)}};
 }
 
