@@ -25,7 +25,7 @@ glm::dvec3 gain_of(int frame) {
 int main() {
   const std::string folder = CATCHLIGHT_SOURCE_DIR "/recordings/matte";
   const CameraModel camera = tracking::read_camera_file(folder + "/camera.yaml");
-  app::PathTrack still(camera, {}), drifting(camera, {});
+  app::ShotTrack still(camera, {}), drifting(camera, {});
   const auto source = app::MediaSource::open(folder + "/video.mp4");
   for (int i = 0; i < kFrames; ++i) {
     const auto frame = source->read();

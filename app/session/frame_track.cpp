@@ -131,17 +131,17 @@ class RecordedTrack : public FrameTrack {
 
 }  // namespace
 
-struct PathTrack::Impl {
+struct ShotTrack::Impl {
   CameraModel camera;
   TagTarget target;
   SceneSettings::Exposure settings;
-  tracking::ShotTracker path;
+  tracking::ShotTracker tracker;
   tracking::ExposureMatch exposure;
   tracking::GrainMeter grain;
   std::vector<TrackRow> rows;
 };
 
-PathTrack::PathTrack(const CameraModel& camera, const SceneSettings& scene) {
+ShotTrack::ShotTrack(const CameraModel& camera, const SceneSettings& scene) {
   const TagTarget target = scene.tag.target();
   impl_ = std::make_unique<Impl>(Impl{camera,
                                       target,
@@ -152,18 +152,18 @@ PathTrack::PathTrack(const CameraModel& camera, const SceneSettings& scene) {
                                       {}});
 }
 
-PathTrack::~PathTrack() = default;
+ShotTrack::~ShotTrack() = default;
 
-void PathTrack::add(const Frame& frame) {
-  const TrackRow row = row_of(frame, impl_->path.add(frame.luma(), frame.time_s()), impl_->camera, impl_->target);
+void ShotTrack::add(const Frame& frame) {
+  const TrackRow row = row_of(frame, impl_->tracker.add(frame.luma(), frame.time_s()), impl_->camera, impl_->target);
   impl_->exposure.add(frame, row);
   impl_->grain.add(frame, row);
   impl_->rows.push_back(row);
 }
 
-std::vector<TrackRow> PathTrack::solve() const {
+std::vector<TrackRow> ShotTrack::solve() const {
   std::vector<TrackRow> rows = impl_->rows;
-  const std::vector<tracking::SolvedPose> poses = impl_->path.solve();
+  const std::vector<tracking::SolvedPose> poses = impl_->tracker.solve();
   const NoiseModel noise = impl_->grain.model();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     set_pose(rows[i], poses[i].state, poses[i].camera_from_tag, impl_->camera, impl_->target);
@@ -171,7 +171,7 @@ std::vector<TrackRow> PathTrack::solve() const {
     rows[i].corner_sigma_px = rows[i].found ? tracking::corner_sigma_px(impl_->camera, poses[i].camera_from_tag,
                                                                         poses[i].covariance, impl_->target.size_m)
                                             : 0;
-    set_appearance(rows[i], impl_->path.appearances()[i]);
+    set_appearance(rows[i], impl_->tracker.appearances()[i]);
     rows[i].noise = noise;
   }
   impl_->exposure.set_all(rows);
@@ -179,7 +179,7 @@ std::vector<TrackRow> PathTrack::solve() const {
   return rows;
 }
 
-std::optional<std::string> PathTrack::warning(const std::vector<TrackRow>& rows) const {
+std::optional<std::string> ShotTrack::warning(const std::vector<TrackRow>& rows) const {
   return exposure_warning(impl_->exposure.counts(rows), impl_->settings);
 }
 

@@ -31,10 +31,10 @@ class FrameTrack {
 std::unique_ptr<FrameTrack> make_tag_track(const CameraModel& camera, const SceneSettings& scene);
 
 /// Tracks recorded footage, where each row may know what comes after it.
-class PathTrack {
+class ShotTrack {
  public:
-  PathTrack(const CameraModel& camera, const SceneSettings& scene);
-  ~PathTrack();
+  ShotTrack(const CameraModel& camera, const SceneSettings& scene);
+  ~ShotTrack();
 
   /// Frames come in order, none left out.
   void add(const Frame& frame);

@@ -181,15 +181,15 @@ OverlayResult run_track(MediaSource& source, FrameTrack& track, const FrameRange
 OverlayResult solve_track(MediaSource& source, const CameraModel& camera, const SceneSettings& scene, const FrameRange& range,
                           Log& log, Report& report) {
   OverlayResult result;
-  PathTrack path(camera, scene);
+  ShotTrack track(camera, scene);
   const auto start = std::chrono::steady_clock::now();
-  const auto add = [&](const Frame& frame) { report.stages.measure("track", [&] { path.add(frame); }); };
+  const auto add = [&](const Frame& frame) { report.stages.measure("track", [&] { track.add(frame); }); };
   result.damage = read_frames(source, with_a_second_more(range, source.info()), "track", log, report.stages, add);
-  const std::vector<TrackRow> solved = report.stages.measure("solve path", [&] { return path.solve(); });
+  const std::vector<TrackRow> solved = report.stages.measure("solve", [&] { return track.solve(); });
   for (const TrackRow& row : solved)
     if (range.contains(row.frame)) result.rows.push_back(row);
   for (const TrackRow& row : result.rows) count(row, report);
-  if (const auto warning = path.warning(solved)) log.warn(*warning);
+  if (const auto warning = track.warning(solved)) log.warn(*warning);
   report.fps = frames_per_second(report.frames, start);
   return result;
 }

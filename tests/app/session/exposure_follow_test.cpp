@@ -62,7 +62,7 @@ std::vector<glm::dvec3> wandering_gains(double top_ev) {
 }
 
 std::vector<TrackRow> solved(const std::vector<Frame>& frames) {
-  PathTrack track(small_camera(), scene_of_tag_5());
+  ShotTrack track(small_camera(), scene_of_tag_5());
   for (const Frame& frame : frames) track.add(frame);
   return track.solve();
 }
@@ -142,7 +142,7 @@ TEST(ExposureFollows, ABlackFrameAndAWhiteFrameAreHeldAndWarnedOf) {
   const auto light = tag_light();
   std::vector<Frame> frames =
       photographs(light, {glm::dvec3(1), glm::dvec3(1), glm::dvec3(1e-9), glm::dvec3(1e9), glm::dvec3(1)});
-  PathTrack track(small_camera(), scene_of_tag_5());
+  ShotTrack track(small_camera(), scene_of_tag_5());
   for (const Frame& frame : frames) track.add(frame);
   const auto rows = track.solve();
   const auto live = causal(frames);
@@ -189,7 +189,7 @@ TEST(ExposureFollows, ARecordingWhoseExposureAndWhiteBalanceWander) {
   const CameraModel camera = tracking::read_camera_file(folder + "/camera.yaml");
   SceneSettings matte;
   const auto gains = wandering_gains(1);
-  PathTrack plain(camera, matte), wandering(camera, matte);
+  ShotTrack plain(camera, matte), wandering(camera, matte);
   const auto live = make_tag_track(camera, matte);
   std::vector<TrackRow> live_rows;
   const auto source = MediaSource::open(folder + "/video.mp4");

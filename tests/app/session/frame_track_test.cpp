@@ -34,12 +34,12 @@ Frame frame_of(std::int64_t number, std::optional<double> x_px, double light = 0
 }
 
 std::vector<TrackRow> solved(const std::vector<Frame>& frames) {
-  PathTrack track(small_camera(), scene_of_tag_5());
+  ShotTrack track(small_camera(), scene_of_tag_5());
   for (const Frame& frame : frames) track.add(frame);
   return track.solve();
 }
 
-TEST(PathTrack, ATagThatMovesOutOfThePictureIsLostThere) {
+TEST(ShotTrack, ATagThatMovesOutOfThePictureIsLostThere) {
   // 40 px a frame: after it was last seen, the tag is out of the picture long before its coasting time is over.
   std::vector<Frame> frames;
   for (int i = 0; i < 9; ++i) frames.push_back(frame_of(i, 60 + 40.0 * i));
@@ -52,7 +52,7 @@ TEST(PathTrack, ATagThatMovesOutOfThePictureIsLostThere) {
   }
 }
 
-TEST(PathTrack, ATagThatIsCoveredForAMomentCoastsInPlace) {
+TEST(ShotTrack, ATagThatIsCoveredForAMomentCoastsInPlace) {
   std::vector<Frame> frames;
   for (int i = 0; i < 10; ++i) frames.push_back(frame_of(i, i == 5 || i == 6 ? std::nullopt : std::optional(100.0)));
   const auto rows = solved(frames);
@@ -63,7 +63,7 @@ TEST(PathTrack, ATagThatIsCoveredForAMomentCoastsInPlace) {
   }
 }
 
-TEST(PathTrack, OverUnmeasuredFramesTheExposureGoesEvenlyInStops) {
+TEST(ShotTrack, OverUnmeasuredFramesTheExposureGoesEvenlyInStops) {
   // 0 to 3 before the tag is there, 4 to 6 in dim light, 7 to 11 gone, then brighter.
   std::vector<Frame> frames;
   for (int i = 0; i < 15; ++i) {
@@ -81,7 +81,7 @@ TEST(PathTrack, OverUnmeasuredFramesTheExposureGoesEvenlyInStops) {
   EXPECT_NEAR(rows[4].exposure.g, (0.3 - 0.015) / (0.8 - 0.04), 0.005);
 }
 
-TEST(PathTrack, WithoutAnyTagEveryRowIsLostAndHasTheUsualExposure) {
+TEST(ShotTrack, WithoutAnyTagEveryRowIsLostAndHasTheUsualExposure) {
   const auto rows = solved({frame_of(0, std::nullopt), frame_of(1, std::nullopt)});
   ASSERT_EQ(rows.size(), 2u);
   for (const TrackRow& row : rows) {
@@ -90,7 +90,7 @@ TEST(PathTrack, WithoutAnyTagEveryRowIsLostAndHasTheUsualExposure) {
   }
 }
 
-TEST(PathTrack, RowsHaveTheFramesNumbersAndTimes) {
+TEST(ShotTrack, RowsHaveTheFramesNumbersAndTimes) {
   const auto rows = solved({frame_of(17, 100.0), frame_of(18, 100.0)});
   EXPECT_EQ(rows[0].frame, 17);
   EXPECT_EQ(rows[1].frame, 18);

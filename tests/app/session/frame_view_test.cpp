@@ -248,7 +248,7 @@ TEST(Blur, ARenderedShutterIsMeasuredWithinATenth) {
   constexpr double kShutter = 0.6;
   SceneSettings settings;
   settings.tag.id = 5;
-  PathTrack track(camera(), settings);
+  ShotTrack track(camera(), settings);
   for (int i = 0; i < 16; ++i) {
     constexpr int kSteps = 9;
     std::vector<float> light(320 * 240, 0.0f);
