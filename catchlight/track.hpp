@@ -24,7 +24,7 @@ enum class TrackState {
 /// colour is subsampled, luma's noise and that of the nearest colour sample together.
 struct NoiseModel {
   glm::dvec3 slope{0.0}, floor{0.0};
-  glm::dvec3 correlation{0.0};  ///< of red with green, red with blue, green with blue
+  glm::dvec3 correlation{0.0};  ///< red with green, red with blue, green with blue
 
   bool is_measured() const { return slope != glm::dvec3(0.0) || floor != glm::dvec3(0.0); }
 };
@@ -35,7 +35,7 @@ struct TagMotion {
 };
 
 /// What blurs the picture.
-struct LensBlurModel {
+struct BlurModel {
   TagMotion motion;
   double shutter = 0;    ///< share of the frame's interval that it is open; 0: the footage shows no motion blur
   double focus_px2 = 0;  ///< variance along each axis by lens and pixel, without motion; 0: not measured
@@ -53,10 +53,10 @@ struct TrackRow {
   glm::dvec3 black{0.0};
   double corner_sigma_px = 0;  ///< how uncertain the tag's corners are in the picture, per axis
   double ambiguity = 0;        ///< probability that the other planar pose is the right one
-  Covariance2 blur_px2;        ///< of the tag's edges, by lens, motion and pixel; 0: not measured
+  Covariance2 blur_px2;        ///< the tag's edges, by focus, motion and pixel; 0: not measured
   double noise_codes = 0;      ///< on the tag, in 8-bit codes; 0: not measured
-  NoiseModel noise;            ///< of the whole footage, where it was recorded; all 0: not measured
-  LensBlurModel lens_blur;     ///< the last parts of blur_px2, taken apart
+  NoiseModel noise;            ///< the whole footage's, where it was recorded; all 0: not measured
+  BlurModel blur;              ///< blur_px2 taken apart
 };
 
 }  // namespace catchlight

@@ -164,7 +164,7 @@ class Reader {
     const auto vector = [&](const std::string& name) {
       return glm::dvec3(number_or(name + "_x", 0), number_or(name + "_y", 0), number_or(name + "_z", 0));
     };
-    row.lens_blur = {{vector("turn"), vector("shift")}, number_or("shutter", 0), number_or("focus_px2", 0)};
+    row.blur = {{vector("turn"), vector("shift")}, number_or("shutter", 0), number_or("focus_px2", 0)};
     return row;
   }
 
@@ -194,10 +194,10 @@ std::string row_text(const TrackRow& row) {
   const Covariance2& blur = row.blur_px2;
   for (const double number : {row.corner_sigma_px, row.ambiguity, blur.xx, blur.xy, blur.yy, row.noise_codes})
     text += ',' + number_text(number);
-  const TagMotion& motion = row.lens_blur.motion;
+  const TagMotion& motion = row.blur.motion;
   for (const glm::dvec3& three : {row.noise.slope, row.noise.floor, row.noise.correlation, motion.turn_rad, motion.shift_m})
     for (int i = 0; i < 3; ++i) text += ',' + number_text(three[i]);
-  for (const double number : {row.lens_blur.shutter, row.lens_blur.focus_px2}) text += ',' + number_text(number);
+  for (const double number : {row.blur.shutter, row.blur.focus_px2}) text += ',' + number_text(number);
   return text + '\n';
 }
 

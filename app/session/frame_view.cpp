@@ -54,10 +54,10 @@ PlanEntry noise_entry(Switch wanted, const NoiseModel& noise, const PlateColor& 
 PlanEntry defocus_entry(Switch wanted, const std::vector<TrackRow>& rows) {
   std::vector<double> measured;
   for (const TrackRow& row : rows)
-    if (row.lens_blur.focus_px2 > 0) measured.push_back(row.lens_blur.focus_px2);
+    if (row.blur.focus_px2 > 0) measured.push_back(row.blur.focus_px2);
   if (wanted == Switch::off) return {"lens.defocus", "off", "switched off"};
   if (measured.empty()) return {"lens.defocus", "off", "not measured: needs tag.refinement direct"};
-  LensBlurModel typical;
+  BlurModel typical;
   typical.focus_px2 = median(std::move(measured));
   const double added = defocus_px2(wanted, typical);
   return {"lens.defocus", added > 0 ? "on" : "off",
@@ -65,7 +65,7 @@ PlanEntry defocus_entry(Switch wanted, const std::vector<TrackRow>& rows) {
               (added > 0 ? fixed_text(std::sqrt(added), 2) + " px more than a pixel's own" : "no more than a pixel's own")};
 }
 
-PlanEntry motion_entry(const SceneSettings::Lens& settings, const LensBlurModel& blur) {
+PlanEntry motion_entry(const SceneSettings::Lens& settings, const BlurModel& blur) {
   const double share = shutter_share(settings, blur);
   std::string why;
   if (settings.motion_blur == Switch::off)
@@ -143,12 +143,12 @@ glm::dmat3 noise_mix(const NoiseModel& noise) {
   return mix;
 }
 
-double defocus_px2(Switch wanted, const LensBlurModel& blur) {
+double defocus_px2(Switch wanted, const BlurModel& blur) {
   const double beyond = blur.focus_px2 - kPixelBlur_px2;
   return wanted == Switch::off || blur.focus_px2 == 0 || beyond < kMinDefocus_px2 ? 0 : beyond;
 }
 
-double shutter_share(const SceneSettings::Lens& settings, const LensBlurModel& blur) {
+double shutter_share(const SceneSettings::Lens& settings, const BlurModel& blur) {
   if (settings.motion_blur == Switch::off) return 0;
   if (settings.shutter > 0) return settings.shutter;
   return blur.shutter > 0 || settings.motion_blur == Switch::automatic ? blur.shutter : kFilmShutter;
@@ -165,9 +165,9 @@ render::LensView lens_view(const SceneSettings::Lens& settings, const TrackRow& 
     lens.noise.block_shift = frame.color_block_shift();
     lens.noise.frame = static_cast<std::uint32_t>(row.frame);
   }
-  lens.defocus_px2 = defocus_px2(settings.defocus, row.lens_blur);
-  const double shutter = shutter_share(settings, row.lens_blur);
-  lens.motion = {row.lens_blur.motion.turn_rad * shutter, row.lens_blur.motion.shift_m * shutter};
+  lens.defocus_px2 = defocus_px2(settings.defocus, row.blur);
+  const double shutter = shutter_share(settings, row.blur);
+  lens.motion = {row.blur.motion.turn_rad * shutter, row.blur.motion.shift_m * shutter};
   if (settings.vignetting != Switch::off) lens.vignetting = vignetting;
   return lens;
 }
@@ -176,7 +176,7 @@ std::vector<PlanEntry> lens_plan(const SceneSettings::Lens& settings, const std:
                                  const glm::dvec3& vignetting) {
   if (rows.empty()) return {};
   return {noise_entry(settings.noise, rows.back().noise, frame.color()), defocus_entry(settings.defocus, rows),
-          motion_entry(settings, rows.back().lens_blur), vignetting_entry(settings.vignetting, vignetting),
+          motion_entry(settings, rows.back().blur), vignetting_entry(settings.vignetting, vignetting),
           chroma_entry(settings.chroma_subsampling, frame.color_block_shift())};
 }
 

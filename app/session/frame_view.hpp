@@ -24,10 +24,10 @@ double noise_codes(const NoiseModel& noise, const PlateColor& response, double l
 glm::dmat3 noise_mix(const NoiseModel& noise);
 
 /// Variance of the lens's blur beyond what a pixel's own square gives every picture, ours too; 0: none.
-double defocus_px2(Switch wanted, const LensBlurModel& blur);
+double defocus_px2(Switch wanted, const BlurModel& blur);
 
 /// Share of the frame's interval over which to blur by motion; 0: not.
-double shutter_share(const SceneSettings::Lens& settings, const LensBlurModel& blur);
+double shutter_share(const SceneSettings::Lens& settings, const BlurModel& blur);
 
 /// The camera's part of the virtual layer in one frame.
 render::LensView lens_view(const SceneSettings::Lens& settings, const TrackRow& row, const Frame& frame,

@@ -51,7 +51,7 @@ TrackRow random_row(std::mt19937_64& random, std::int64_t frame) {
   row.noise_codes = uniform(random);
   row.ambiguity = uniform(random);
   row.noise = {vector(), vector(), vector()};
-  row.lens_blur = {{vector(), vector()}, uniform(random), uniform(random)};
+  row.blur = {{vector(), vector()}, uniform(random), uniform(random)};
   return row;
 }
 
@@ -83,10 +83,10 @@ void expect_same(const TrackRow& a, const TrackRow& b) {
   EXPECT_TRUE(same_bits(a.noise.slope, b.noise.slope));
   EXPECT_TRUE(same_bits(a.noise.floor, b.noise.floor));
   EXPECT_TRUE(same_bits(a.noise.correlation, b.noise.correlation));
-  EXPECT_TRUE(same_bits(a.lens_blur.motion.turn_rad, b.lens_blur.motion.turn_rad));
-  EXPECT_TRUE(same_bits(a.lens_blur.motion.shift_m, b.lens_blur.motion.shift_m));
-  EXPECT_TRUE(same_bits(a.lens_blur.shutter, b.lens_blur.shutter));
-  EXPECT_TRUE(same_bits(a.lens_blur.focus_px2, b.lens_blur.focus_px2));
+  EXPECT_TRUE(same_bits(a.blur.motion.turn_rad, b.blur.motion.turn_rad));
+  EXPECT_TRUE(same_bits(a.blur.motion.shift_m, b.blur.motion.shift_m));
+  EXPECT_TRUE(same_bits(a.blur.shutter, b.blur.shutter));
+  EXPECT_TRUE(same_bits(a.blur.focus_px2, b.blur.focus_px2));
 }
 
 /// The chunks of one recording are the same bytes as one run only if this holds.
@@ -144,7 +144,7 @@ TEST(TrackFile, OneOfTheFirstReleasesHasItsExposureAndNoNoiseOrBlur) {
   EXPECT_EQ(rows[0].black, glm::dvec3(0.01, 0.02, 0.03));
   EXPECT_EQ(rows[0].noise_codes, 0);
   EXPECT_EQ(rows[0].noise.slope, glm::dvec3(0));
-  EXPECT_EQ(rows[0].lens_blur.shutter, 0);
+  EXPECT_EQ(rows[0].blur.shutter, 0);
 }
 
 TEST(TrackFile, ColumnsAreFoundByNameAndUnknownOnesLeftAlone) {

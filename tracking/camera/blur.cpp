@@ -95,7 +95,7 @@ TagMotion motion_at(const std::vector<TrackRow>& rows, std::size_t i) {
 }
 
 Covariance2 seen_motion(const CameraModel& camera, const TrackRow& row, double tag_size_m) {
-  return row.found ? motion_covariance(camera, row.camera_from_tag, row.lens_blur.motion, tag_size_m) : Covariance2{};
+  return row.found ? motion_covariance(camera, row.camera_from_tag, row.blur.motion, tag_size_m) : Covariance2{};
 }
 
 }  // namespace
@@ -118,30 +118,30 @@ Covariance2 motion_covariance(const CameraModel& camera, const RigidTransform& c
 void measure_blur(std::vector<TrackRow>& rows, const CameraModel& camera, double tag_size_m) {
   std::vector<Covariance2> motions;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    rows[i].lens_blur.motion = motion_at(rows, i);
+    rows[i].blur.motion = motion_at(rows, i);
     motions.push_back(seen_motion(camera, rows[i], tag_size_m));
   }
   const double shutter = shutter_of(rows, motions);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::size_t first = i - std::min(i, kFocusFrames), end = std::min(rows.size(), i + kFocusFrames + 1);
-    rows[i].lens_blur.shutter = shutter;
-    rows[i].lens_blur.focus_px2 = focus_of(rows, motions, first, end, shutter);
+    rows[i].blur.shutter = shutter;
+    rows[i].blur.focus_px2 = focus_of(rows, motions, first, end, shutter);
   }
 }
 
 void BlurMeter::add(TrackRow& row) {
   last_.push_back(row);
-  last_.back().lens_blur.motion = motion_at(last_, last_.size() - 1);
+  last_.back().blur.motion = motion_at(last_, last_.size() - 1);
   motions_.push_back(seen_motion(camera_, last_.back(), tag_size_m_));
   if (last_.size() > kRemembered) {
     last_.erase(last_.begin());
     motions_.erase(motions_.begin());
   }
-  LensBlurModel& blur = last_.back().lens_blur;
+  BlurModel& blur = last_.back().blur;
   blur.shutter = shutter_of(last_, motions_);
   const std::size_t end = last_.size(), first = end - std::min(end, 2 * kFocusFrames + 1);
   blur.focus_px2 = focus_of(last_, motions_, first, end, blur.shutter);
-  row.lens_blur = blur;
+  row.blur = blur;
 }
 
 }  // namespace catchlight::tracking

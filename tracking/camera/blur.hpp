@@ -14,7 +14,7 @@ namespace catchlight::tracking {
 Covariance2 motion_covariance(const CameraModel& camera, const RigidTransform& camera_from_tag, const TagMotion& motion,
                               double tag_size_m);
 
-/// Fills in `lens_blur` of rows in order, from their poses and blur.
+/// Fills in `blur` of rows in order, from their poses and blur.
 /// Motion: half the way from the frame before to the frame after, or all of it from one of them.
 /// Shutter: the blur is focus * I + shutter^2 * motion's covariance, so its two parts that have a direction, xx - yy and 2 xy,
 /// are shutter^2 times motion's, whatever the focus: least squares over all rows, those that do not fit weighted down (Huber).

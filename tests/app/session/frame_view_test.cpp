@@ -192,7 +192,7 @@ std::vector<TrackRow> blurred(std::vector<TrackRow> rows, double focus_px2, doub
   std::mt19937 random(5);
   std::normal_distribution<double> normal(0, error_px2);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Covariance2 m = motion_covariance(camera(), rows[i].camera_from_tag, measured[i].lens_blur.motion, 0.08);
+    const Covariance2 m = motion_covariance(camera(), rows[i].camera_from_tag, measured[i].blur.motion, 0.08);
     const double s2 = shutter * shutter;
     rows[i].blur_px2 = {focus_px2 + s2 * m.xx + normal(random), s2 * m.xy + normal(random),
                         focus_px2 + s2 * m.yy + normal(random)};
@@ -205,8 +205,8 @@ TEST(Blur, ShutterAndFocusAreTakenApart) {
     std::vector<TrackRow> rows = blurred(swinging(60), 0.7, shutter, 0.05);
     measure_blur(rows, camera(), 0.08);
     for (const TrackRow& row : rows) {
-      EXPECT_NEAR(row.lens_blur.shutter / shutter, 1, 0.05);
-      EXPECT_NEAR(row.lens_blur.focus_px2 / 0.7, 1, 0.1);
+      EXPECT_NEAR(row.blur.shutter / shutter, 1, 0.05);
+      EXPECT_NEAR(row.blur.focus_px2 / 0.7, 1, 0.1);
     }
   }
 }
@@ -214,16 +214,16 @@ TEST(Blur, ShutterAndFocusAreTakenApart) {
 TEST(Blur, AFastShutterShowsNone) {
   std::vector<TrackRow> rows = blurred(swinging(60), 0.7, 0, 0.05);
   measure_blur(rows, camera(), 0.08);
-  EXPECT_EQ(rows[30].lens_blur.shutter, 0);
-  EXPECT_NEAR(rows[30].lens_blur.focus_px2, 0.7, 0.07);
+  EXPECT_EQ(rows[30].blur.shutter, 0);
+  EXPECT_NEAR(rows[30].blur.focus_px2, 0.7, 0.07);
 }
 
 TEST(Blur, AFewWrongFramesDoNotDecide) {
   std::vector<TrackRow> rows = blurred(swinging(60), 0.7, 0.5, 0.03);
   for (const std::size_t i : {11, 23, 37}) rows[i].blur_px2 = {12, -5, 3};
   measure_blur(rows, camera(), 0.08);
-  EXPECT_NEAR(rows[0].lens_blur.shutter, 0.5, 0.05);
-  EXPECT_NEAR(rows[23].lens_blur.focus_px2, 0.7, 0.1);
+  EXPECT_NEAR(rows[0].blur.shutter, 0.5, 0.05);
+  EXPECT_NEAR(rows[23].blur.focus_px2, 0.7, 0.1);
 }
 
 TEST(Blur, LiveRowsKnowThePastAlone) {
@@ -234,13 +234,13 @@ TEST(Blur, LiveRowsKnowThePastAlone) {
     all.add(a);
     if (i >= 40) continue;
     first_half.add(b);
-    EXPECT_EQ(a.lens_blur.shutter, b.lens_blur.shutter);
-    EXPECT_EQ(a.lens_blur.focus_px2, b.lens_blur.focus_px2);
+    EXPECT_EQ(a.blur.shutter, b.blur.shutter);
+    EXPECT_EQ(a.blur.focus_px2, b.blur.focus_px2);
   }
   TrackRow last = rows.back();
   last.frame = 60;
   all.add(last);
-  EXPECT_NEAR(last.lens_blur.shutter, 0.5, 0.1);
+  EXPECT_NEAR(last.blur.shutter, 0.5, 0.1);
 }
 
 /// From pictures: frames averaged over the shutter, tracked, and taken apart.
@@ -268,15 +268,15 @@ TEST(Blur, ARenderedShutterIsMeasuredWithinATenth) {
     track.add({std::shared_ptr<const AVFrame>(std::move(picture)), i, i / 30.0});
   }
   const std::vector<TrackRow> rows = track.solve();
-  EXPECT_NEAR(rows[8].lens_blur.shutter / kShutter, 1, 0.1);
+  EXPECT_NEAR(rows[8].blur.shutter / kShutter, 1, 0.1);
   // The lens's Gaussian of 0.6 px and the pixel's own square.
-  EXPECT_NEAR(rows[8].lens_blur.focus_px2 / (0.36 + 1.0 / 12), 1, 0.1);
+  EXPECT_NEAR(rows[8].blur.focus_px2 / (0.36 + 1.0 / 12), 1, 0.1);
 }
 
 TEST(LensView, EverythingCanBeSwitchedOffAlone) {
   TrackRow row;
   row.noise = {glm::dvec3(3e-4), glm::dvec3(0), glm::dvec3(0)};
-  row.lens_blur = {{{0.01, 0, 0}, {0.02, 0, 0}}, 0.5, 1.0};
+  row.blur = {{{0.01, 0, 0}, {0.02, 0, 0}}, 0.5, 1.0};
   const Frame frame = noisy_frame(scene(), glm::dvec3(0), 0, 1);
   const glm::dvec3 vignetting(-0.2, 0, 0);
   const render::LensView all = lens_view({}, row, frame, vignetting);
