@@ -37,7 +37,7 @@ std::unique_ptr<FrameTrack> open_track(const Options& options, const Recording& 
 }
 
 void overlay(const Options& options, Context& context) {
-  const FrameRange range = options.frames.empty() ? FrameRange{} : parse_frame_range(options.frames);
+  const FrameRange range = parse_frame_range(options.frames);
   if (options.debug && std::filesystem::path(options.output).extension() == ".exr")
     throw UsageError("--debug draws on pictures, and " + options.output +
                      " is layers; choose a video or %04d.png, or leave --debug out");
@@ -49,7 +49,9 @@ void overlay(const Options& options, Context& context) {
   const Recording recording = open_recording(options.recording, options.overrides);
   const std::unique_ptr<MediaSource> source = open_footage(recording, context.log.warning_handler());
   const CameraModel camera = camera_for_footage(recording, source->info().width_px, source->info().height_px);
-  const std::unique_ptr<FrameOutput> output = open_output(options.output, recording.footage, *source, options.sink);
+  SinkOptions sink = options.sink;
+  sink.frames = range;
+  const std::unique_ptr<FrameOutput> output = open_output(options.output, recording.footage, *source, sink);
 
   Report report;
   const std::unique_ptr<FrameTrack> track =

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "app/commands/commands.hpp"
+#include "app/support/output_file.hpp"
 #include "app/tools/replay/replay.hpp"
 
 namespace catchlight::app {
@@ -52,15 +53,35 @@ std::vector<std::string> check(const ReplayResult& result, const std::string& ex
   return drift(result.figures, read_expected(expected_path));
 }
 
+std::string name_of(const std::string& folder) {
+  return fs::path(folder).filename().string();
+}
+
+std::string sheet_path(const Options& options, const std::string& folder) {
+  return (fs::path(options.sheets) / (name_of(folder) + ".png")).string();
+}
+
+std::string expected_path(const std::string& folder) {
+  return (fs::path(folder) / "expected.toml").string();
+}
+
+void check_outputs(const Options& options, const std::vector<std::string>& folders) {
+  make_output_folder(options.sheets);
+  for (const std::string& folder : folders) {
+    check_output_path(sheet_path(options, folder), true);
+    if (options.bless) check_output_path(expected_path(folder), true);
+  }
+}
+
 void replay(const Options& options, Context& context) {
+  const std::vector<std::string> folders = find_recordings(options.location);
+  check_outputs(options, folders);
   std::vector<std::string> drifted;
   std::vector<std::pair<ReplayResult, const char*>> rows;
-  for (const std::string& folder : find_recordings(options.location)) {
-    const std::string name = fs::path(folder).filename().string();
-    const std::string sheet_path = (fs::path(options.sheets) / (name + ".png")).string();
-    const ReplayResult result = replay_recording(folder, options.overrides, sheet_path, context.log);
-    const std::vector<std::string> lines = check(result, (fs::path(folder) / "expected.toml").string(), options.bless);
-    for (const std::string& line : lines) drifted.push_back(name + ": " + line);
+  for (const std::string& folder : folders) {
+    const ReplayResult result = replay_recording(folder, options.overrides, sheet_path(options, folder), context.log);
+    const std::vector<std::string> lines = check(result, expected_path(folder), options.bless);
+    for (const std::string& line : lines) drifted.push_back(name_of(folder) + ": " + line);
     rows.emplace_back(result, options.bless ? "blessed" : lines.empty() ? "as expected" : "DRIFTED");
   }
   print_header();

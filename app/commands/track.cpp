@@ -30,7 +30,7 @@ OverlayResult tracked(const Options& options, const Recording& recording, const 
 }
 
 void track(const Options& options, Context& context) {
-  const FrameRange range = options.frames.empty() ? FrameRange{} : parse_frame_range(options.frames);
+  const FrameRange range = parse_frame_range(options.frames);
   check_track_format(options.output);
   check_output_path(options.output, options.overwrite);
   if (!options.report.empty()) check_output_path(options.report, options.overwrite);

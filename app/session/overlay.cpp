@@ -1,7 +1,6 @@
 #include "app/session/overlay.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <iterator>
@@ -18,14 +17,6 @@
 namespace catchlight::app {
 
 namespace {
-
-std::int64_t parse_frame_number(std::string_view text, const std::string& whole) {
-  std::int64_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size())
-    throw UsageError("--frames " + whole + ": expected A:B, A:, :B or N (frame numbers; B itself is left out)");
-  return number;
-}
 
 /// Frames of the source that the range leaves, where that can be known.
 std::optional<std::int64_t> frames_to_read(const SourceInfo& info, const FrameRange& range) {
@@ -120,21 +111,6 @@ void add_glare_to_plan(const SceneSettings& scene, Report& report) {
 }
 
 }  // namespace
-
-FrameRange parse_frame_range(const std::string& text) {
-  FrameRange range;
-  const std::size_t colon = text.find(':');
-  const std::string_view view(text);
-  if (colon == std::string::npos) {
-    range.begin = parse_frame_number(view, text);
-    range.end = range.begin + 1;
-    return range;
-  }
-  if (colon > 0) range.begin = parse_frame_number(view.substr(0, colon), text);
-  if (colon + 1 < text.size()) range.end = parse_frame_number(view.substr(colon + 1), text);
-  if (range.begin >= range.end) throw UsageError("--frames " + text + ": the range is empty; expected A:B with A below B");
-  return range;
-}
 
 void warn_of_lost_frames(const Report& report, Log& log) {
   const std::string of_frames = " of " + std::to_string(report.frames) + " frames";

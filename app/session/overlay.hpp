@@ -1,12 +1,11 @@
 // The main job: footage in, the virtual object put into every frame, footage out.
 #pragma once
 
-#include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/media/frame_range.hpp"
 #include "app/media/write/frame_output.hpp"
 #include "app/session/frame_track.hpp"
 #include "app/session/recording.hpp"
@@ -17,16 +16,6 @@
 #include "catchlight/track.hpp"
 
 namespace catchlight::app {
-
-/// Half-open range of frame numbers, as `--frames A:B` says.
-struct FrameRange {
-  std::int64_t begin = std::numeric_limits<std::int64_t>::min();
-  std::int64_t end = std::numeric_limits<std::int64_t>::max();
-  bool contains(std::int64_t number) const { return number >= begin && number < end; }
-};
-
-/// "A:B" (B left out of it), "A:" or ":B"; "N" is that frame alone. Throws UsageError.
-FrameRange parse_frame_range(const std::string& text);
 
 struct OverlayResult {
   std::vector<TrackRow> rows;         ///< of the frames in range

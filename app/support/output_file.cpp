@@ -26,6 +26,18 @@ void check_output_path(const std::string& path, bool overwrite) {
   pending_output(path, overwrite);
 }
 
+void refuse_same_file(const std::string& output, const std::string& input) {
+  std::error_code ignored;
+  if (fs::equivalent(output, input, ignored))
+    throw UsageError("'" + output + "' is the input itself; choose another name for the output");
+}
+
+void make_output_folder(const std::string& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw Error(folder + ": cannot be made: " + error.message() + "; choose another folder");
+}
+
 void write_text_file(const std::string& path, std::string_view text, bool overwrite) {
   PendingFile pending = pending_output(path, overwrite);
   std::ofstream file(pending.pending_path(), std::ios::binary);

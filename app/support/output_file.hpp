@@ -15,6 +15,12 @@ PendingFile pending_output(const std::string& path, bool overwrite);
 /// Throws as pending_output, and leaves nothing behind.
 void check_output_path(const std::string& path, bool overwrite);
 
+/// Throws UsageError where both names are one file's.
+void refuse_same_file(const std::string& output, const std::string& input);
+
+/// Makes `folder`, for files yet to come, where it is missing. Throws Error where that fails.
+void make_output_folder(const std::string& folder);
+
 /// Throws as pending_output, and Error where writing fails; then nothing is left behind.
 void write_text_file(const std::string& path, std::string_view text, bool overwrite);
 

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "app/media/read/sequence.hpp"
+#include "app/media/write/output_sequence.hpp"
 #include "app/support/output_file.hpp"
 #include "catchlight/composite.hpp"
 #include "catchlight/error.hpp"
@@ -83,10 +84,12 @@ class ExrLayerOutput : public FrameOutput {
 
 }  // namespace
 
-std::unique_ptr<FrameOutput> open_exr_layers(const std::string& pattern, bool overwrite) {
+std::unique_ptr<FrameOutput> open_exr_layers(const std::string& pattern, const std::string& source_location,
+                                             const SourceInfo& source, const SinkOptions& options) {
   const std::optional<SequencePattern> sequence = SequencePattern::parse(pattern);
   if (!sequence) throw UsageError(pattern + ": EXR layers are a file a frame; expected a number field, e.g. out.%04d.exr");
-  return std::make_unique<ExrLayerOutput>(*sequence, overwrite);
+  check_output_sequence(*sequence, source_location, source, options);
+  return std::make_unique<ExrLayerOutput>(*sequence, options.overwrite);
 }
 
 }  // namespace catchlight::app

@@ -9,7 +9,8 @@
 namespace catchlight::app {
 
 /// `pattern` has one %d field, filled with the frame's number. Channels as docs/conventions.md lists them.
-/// Throws UsageError, at the frame in question, where a file exists and `overwrite` is false.
-std::unique_ptr<FrameOutput> open_exr_layers(const std::string& pattern, bool overwrite);
+/// Throws as check_output_sequence, and UsageError where the pattern has no field.
+std::unique_ptr<FrameOutput> open_exr_layers(const std::string& pattern, const std::string& source_location,
+                                             const SourceInfo& source, const SinkOptions& options);
 
 }  // namespace catchlight::app

@@ -25,7 +25,7 @@ class MediaOutput : public FrameOutput {
 
 std::unique_ptr<FrameOutput> open_output(const std::string& path, const std::string& source_location, const MediaSource& source,
                                          const SinkOptions& options) {
-  if (std::filesystem::path(path).extension() == ".exr") return open_exr_layers(path, options.overwrite);
+  if (std::filesystem::path(path).extension() == ".exr") return open_exr_layers(path, source_location, source.info(), options);
   return std::make_unique<MediaOutput>(MediaSink::open(path, source_location, source, options));
 }
 

@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <string_view>
 
+#include "app/media/write/output_sequence.hpp"
 #include "app/media/write/sequence_sink.hpp"
 #include "app/media/write/video_sink.hpp"
+#include "app/support/output_file.hpp"
 #include "catchlight/error.hpp"
 
 namespace catchlight::app {
@@ -67,13 +69,6 @@ void check_quality(const SinkOptions& options) {
     throw UsageError("crf " + std::to_string(options.crf) + " is outside 0 (lossless) to 51");
 }
 
-void refuse_same_file(const fs::path& output, const fs::path& input) {
-  std::error_code ignored;
-  if (fs::equivalent(output, input, ignored)) {
-    throw UsageError("'" + output.string() + "' is the input itself; choose another name for the output");
-  }
-}
-
 // Rates are quotients of small numbers (30000/1001); a double holds them well enough to find them again.
 AVRational frame_rate_of(const MediaSource& source) {
   const AVStream* stream = source.video_stream();
@@ -84,9 +79,7 @@ AVRational frame_rate_of(const MediaSource& source) {
 std::unique_ptr<MediaSink> open_sequence(const std::string& path, SequencePattern pattern, const std::string& source_location,
                                          const MediaSource& source, const SinkOptions& options) {
   if (lower_extension(path) != ".png") throw UsageError("'" + path + "': sequences are written as .png");
-  const std::int64_t first = source.info().first_number;
-  const auto input = SequencePattern::parse(source_location);
-  refuse_same_file(pattern.file(first), source.info().is_sequence && input ? input->file(first) : fs::path(source_location));
+  check_output_sequence(pattern, source_location, source.info(), options);
   return std::make_unique<SequenceSink>(std::move(pattern), options.overwrite);
 }
 

@@ -6,10 +6,6 @@
 
 namespace catchlight::app {
 
-SequenceSink::SequenceSink(SequencePattern pattern, bool overwrite) : pattern_(std::move(pattern)), overwrite_(overwrite) {
-  check_output_path(pattern_.file(0), true);  // an unwritable folder should not wait for the first frame
-}
-
 void SequenceSink::write(const Frame& frame) {
   const std::string path = pattern_.file(frame.number()), what = "cannot write '" + path + "'";
   const PendingFile& file = files_.emplace_back(pending_output(path, overwrite_));

@@ -12,7 +12,7 @@ namespace catchlight::app {
 /// 8-bit RGB (or grey, or with alpha) from 8-bit footage, 16-bit from deeper; all files get their names in finish().
 class SequenceSink final : public MediaSink {
  public:
-  SequenceSink(SequencePattern pattern, bool overwrite);
+  SequenceSink(SequencePattern pattern, bool overwrite) : pattern_(std::move(pattern)), overwrite_(overwrite) {}
   void write(const Frame& frame) override;
   void finish() override;
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "app/media/frame_range.hpp"
 #include "app/media/pixels/frame.hpp"
 #include "app/media/read/source.hpp"
 
@@ -14,6 +15,7 @@ struct SinkOptions {
   int crf = 18;
   std::string preset = "medium";
   bool overwrite = false;
+  FrameRange frames;  ///< those that will be written: what stands in their way is refused before the work
 };
 
 /// Writes beside the output's name and renames on finish(); destroyed without finish(), it leaves nothing behind.

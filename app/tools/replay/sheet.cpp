@@ -1,6 +1,5 @@
 #include "app/tools/replay/sheet.hpp"
 
-#include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
 #include "app/support/output_file.hpp"
@@ -18,9 +17,6 @@ cv::Mat sheet_row(const cv::Mat& plate, const cv::Mat& ours, const cv::Mat& trut
 }
 
 void write_sheet(const std::string& path, const std::vector<cv::Mat>& rows) {
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  std::error_code error;
-  if (!folder.empty()) std::filesystem::create_directories(folder, error);
   PendingFile file = pending_output(path, true);
   cv::Mat sheet;
   cv::vconcat(rows, sheet);

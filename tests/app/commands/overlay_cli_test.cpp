@@ -14,6 +14,7 @@ namespace catchlight::tests {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -185,6 +186,75 @@ TEST_F(OverlayCommand, ExistingOutputsAreKeptWithoutY) {
   EXPECT_EQ(read_text(out_), "precious");
   EXPECT_EQ(overlay(copy, out_, {"-y"}).exit_code, 0);
   EXPECT_NE(read_text(out_), "precious");
+}
+
+/// The mesh is read after the footage is tracked: whatever is said before it is said before the work.
+TEST_F(OverlayCommand, WhatStandsInTheWayOfAnOutputIsNoticedBeforeTheWork) {
+  const std::string copy = copied_recording(3);
+  std::ofstream(copy + "/object.glb") << "no mesh";
+  for (const char* taken : {"comp.0001.png", "layers.0002.exr", "taken.json", "taken.csv"})
+    std::ofstream(folder_.path(taken)) << "precious";
+  fs::create_directories(folder_.path("folder.mp4"));
+  const std::string comp = folder_.path("comp.%04d.png"), layers = folder_.path("layers.%04d.exr");
+  const auto refused = [&](const std::string& output, const std::vector<std::string>& options, const std::string& named) {
+    const CommandResult result = overlay(copy, output, options);
+    EXPECT_THAT(result.error, AllOf(HasSubstr(named), Not(HasSubstr("object.glb"))));
+    EXPECT_NE(result.exit_code, 0);
+  };
+  refused(comp, {}, "comp.0001.png: exists already; pass -y");
+  refused(layers, {}, "layers.0002.exr: exists already; pass -y");
+  refused(layers, {"--frames", "2:"}, "layers.0002.exr: exists already");
+  refused(folder_.path("none/%04d.exr"), {}, "there is no folder");
+  refused("/proc/%04d.exr", {}, "/proc/0000.exr: cannot write into its folder");
+  refused("/proc/%04d.png", {}, "/proc/0000.png: cannot write into its folder");
+  refused("/proc/out.mp4", {}, "/proc/out.mp4: cannot write into its folder");
+  refused(folder_.path("folder.mp4"), {"-y"}, "folder.mp4: is a folder");
+  refused(out_, {"--report", folder_.path("taken.json")}, "taken.json: exists already");
+  refused(out_, {"--report", "/proc/report.json"}, "/proc/report.json: cannot write into its folder");
+  refused(out_, {"--track-out", folder_.path("taken.csv")}, "taken.csv: exists already");
+  refused(out_, {"--track-out", "/proc/track.csv"}, "/proc/track.csv: cannot write into its folder");
+  // What does not stand in the way.
+  EXPECT_THAT(overlay(copy, layers, {"--frames", "0:2"}).error, HasSubstr("object.glb"));
+  EXPECT_THAT(overlay(copy, layers, {"-y"}).error, HasSubstr("object.glb"));
+}
+
+TEST_F(OverlayCommand, LayersNeverReplaceTheFootage) {
+  const std::string copy = copied_recording(1), plates = folder_.path("plates");
+  fs::create_directories(plates);
+  run_shell("ffmpeg -v error -nostdin -i " + copy + "/video.mp4 " + plates + "/shot.%04d.exr");
+  const std::string before = read_text(plates + "/shot.0001.exr");
+  const CommandResult result = overlay(plates + "/shot.%04d.exr", plates + "/shot.%04d.exr",
+                                       {"-y", "--scene", copy + "/scene.toml", "--camera", copy + "/camera.yaml"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.error, HasSubstr("is the input itself"));
+  EXPECT_EQ(read_text(plates + "/shot.0001.exr"), before);
+}
+
+/// A recording that is not there is noticed when it is opened: whatever is said before it is said before the work.
+TEST_F(OverlayCommand, OtherCommandsLookAtTheirOutputsFirstToo) {
+  const std::string none = folder_.path("none"), taken = folder_.write("taken", "precious");
+  const auto refused = [&](const std::vector<std::string>& arguments, const std::string& named) {
+    const CommandResult result = run_catchlight(arguments);
+    EXPECT_THAT(result.error, HasSubstr(named));
+    EXPECT_NE(result.exit_code, 0);
+  };
+  refused({"track", none, "-o", "/proc/track.csv"}, "/proc/track.csv: cannot write into its folder");
+  refused({"track", none, "-o", folder_.path("track.csv"), "--report", "/proc/report.json"}, "/proc/report.json: cannot write");
+  refused({"reference", none, "--frame", "0", "-o", "/proc/traced.png"}, "/proc/traced.png: cannot write into its folder");
+  refused({"reference", none, "--frame", "0", "-o", "/proc/traced.exr"}, "/proc/traced.exr: cannot write into its folder");
+  refused({"calibrate", none, "--checkerboard", "9x6", "--square-m", "1", "-o", "/proc/camera.yaml"},
+          "/proc/camera.yaml: cannot");
+  refused({"glare", "--aperture", "circle", "-o", "/proc/glare.png"}, "/proc/glare.png: cannot write into its folder");
+
+  // Replays are of recordings that are there: these would be refused for what their scene files say.
+  const std::string recording = folder_.path("recording");
+  folder_.write("recording/scene.toml", "nonsense");
+  refused({"replay", recording, "-o", taken + "/sheets"}, taken + "/sheets: cannot be made");
+  refused({"replay", recording, "-o", "/proc/sheets"}, "/proc/sheets: cannot be made");
+  fs::create_directories(folder_.path("sheets/recording.png"));
+  refused({"replay", recording, "-o", folder_.path("sheets")}, "recording.png: is a folder");
+  fs::create_directories(recording + "/expected.toml");
+  refused({"replay", recording, "-o", folder_.path("others"), "--bless"}, "expected.toml: is a folder");
 }
 
 // --- footage ----------------------------------------------------------------------------------------------------------

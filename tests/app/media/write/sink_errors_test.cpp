@@ -54,6 +54,13 @@ class SinkErrors : public MediaTest {
   }
 };
 
+SinkOptions options_for(const FrameRange& frames, bool overwrite = false) {
+  SinkOptions options;
+  options.frames = frames;
+  options.overwrite = overwrite;
+  return options;
+}
+
 TEST_F(SinkErrors, ExistingOutputIsKept) {
   write_bytes(path("out.mp4"), {1, 2, 3});
   EXPECT_THAT(message_of<UsageError>([&] { pass_through(path("in.mp4"), path("out.mp4")); }), HasSubstr("exists already"));
@@ -97,6 +104,28 @@ TEST_F(SinkErrors, UnknownCodecsAndPresets) {
   options.crf = 52;
   EXPECT_THAT(message_of<UsageError>([&] { pass_through(path("in.mp4"), path("out.mp4"), options); }), HasSubstr("52"));
   EXPECT_THAT(files(), ElementsAre("in.mp4"));
+}
+
+TEST_F(SinkErrors, FilesOfASequenceAreNoticedBeforeTheFirstFrame) {
+  write_bytes(path("out.0031.png"), {1, 2, 3});  // the footage ends before it
+  write_bytes(path("out.0007.png"), {1, 2, 3});
+  write_bytes(path("out.0009.png"), {1, 2, 3});
+  const auto source = MediaSource::open(path("in.mp4"));
+  const auto open = [&](const SinkOptions& options) { MediaSink::open(path("out.%04d.png"), path("in.mp4"), *source, options); };
+  EXPECT_THAT(message_of<UsageError>([&] { open({}); }), HasSubstr("out.0007.png: exists already; pass -y"));
+  EXPECT_THAT(message_of<UsageError>([&] { open(options_for({8, 25})); }), HasSubstr("out.0009.png: exists already"));
+  EXPECT_NO_THROW(open(options_for({0, 7})));
+  EXPECT_NO_THROW(open(options_for({10, 40})));
+  EXPECT_NO_THROW(open(options_for({}, true)));
+  EXPECT_THAT(files(), ElementsAre("in.mp4", "out.0007.png", "out.0009.png", "out.0031.png"));
+}
+
+TEST_F(SinkErrors, FolderAmongTheFilesOfASequenceIsNoticedEvenForOverwriting) {
+  std::filesystem::create_directories(path("out.0007.png"));
+  const auto source = MediaSource::open(path("in.mp4"));
+  EXPECT_THAT(
+      message_of<UsageError>([&] { MediaSink::open(path("out.%04d.png"), path("in.mp4"), *source, options_for({}, true)); }),
+      HasSubstr("out.0007.png: is a folder"));
 }
 
 TEST_F(SinkErrors, MissingFolder) {
