@@ -36,15 +36,10 @@ struct Part {
 };
 
 Image exposed(const Layers& layers, const glm::dvec3& gain) {
-  Image linear(layers.plate.width, layers.plate.height);
-  for (int y = 0; y < linear.height; ++y) {
-    for (int x = 0; x < linear.width; ++x) {
-      const float* plate = layers.plate.pixel(x, y);
-      const float *object = layers.object.pixel(x, y), *shadow = layers.shadow.pixel(x, y);
-      for (int c = 0; c < 3; ++c)
-        linear.pixel(x, y)[c] = static_cast<float>(gain[c] * (plate[c] * shadow[c] * (1 - object[3]) + object[c]));
-    }
-  }
+  Image linear = recompose(layers);
+  for (int y = 0; y < linear.height; ++y)
+    for (int x = 0; x < linear.width; ++x)
+      for (int c = 0; c < 3; ++c) linear.pixel(x, y)[c] *= static_cast<float>(gain[c]);
   return linear;
 }
 

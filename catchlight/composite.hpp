@@ -10,11 +10,14 @@
 
 namespace catchlight {
 
-/// Layers for compositing packages, whole frame, premultiplied, exposed linear in the plate's primaries. r = plate * shadow * (1
-/// - a) + object + glare.
+/// Layers for compositing packages, whole frame, premultiplied, exposed linear in the plate's primaries.
 struct Layers {
-  Image plate, object /* RGBA */, shadow, reflection, glare, normal, depth /* metres along z, 1 channel */;
+  Image plate, object /* RGBA */, shadow, reflection, glare, normal,
+      depth /* metres along z, 1 channel; infinite where no object is */;
 };
+
+/// What the layers make together, RGBA: plate * shadow * (1 - object.a) + object + glare, and a = 1, as it fills the frame.
+Image recompose(const Layers& layers);
 
 /// The changed part of a frame. RGBA floats: display codes as the footage's, alpha 1 where the virtual layer changed the pixel,
 /// else 0.

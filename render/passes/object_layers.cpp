@@ -1,6 +1,7 @@
 #include "render/passes/object_layers.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "catchlight/image.hpp"
 
@@ -10,6 +11,7 @@ void read_object_layers(const ObjectTarget* target, const PixelRect& rect, const
   layers.reflection = Image(frame.width, frame.height, 3);
   layers.normal = Image(frame.width, frame.height, 3);
   layers.depth = Image(frame.width, frame.height, 1);
+  std::fill(layers.depth.data.begin(), layers.depth.data.end(), std::numeric_limits<float>::infinity());
   if (rect.empty()) return;
   const auto read = [&](int layer) { return target->read(layer, rect.width, rect.height); };
   const Image color = read(0), reflection = read(1), normal_depth = read(2);

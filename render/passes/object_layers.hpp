@@ -7,8 +7,9 @@
 
 namespace catchlight::render {
 
-/// Fills reflection, normal and depth of the whole frame from `target`, which holds the frame's pixels of `rect` (empty: zeros).
-/// Normals have length 1 and depth is the mean over the covered part of a pixel; both are 0 where there is no object.
+/// Fills reflection, normal and depth of the whole frame from `target`, which holds the frame's pixels of `rect` (may be empty).
+/// Normals have length 1, and 0 where no object is; depth is the mean over the covered part of a pixel, and infinite where no
+/// object is.
 void read_object_layers(const ObjectTarget* target, const PixelRect& rect, const PixelRect& frame, Layers& layers);
 
 }  // namespace catchlight::render

@@ -21,7 +21,7 @@ Image filled(int width, int height, int channels, float value) {
   return image;
 }
 
-/// Of a frame that nothing virtual reached.
+/// The layers of a frame that nothing virtual reached.
 Layers untouched_layers(const Frame& frame) {
   const int width = frame.width_px(), height = frame.height_px();
   Layers layers;
@@ -32,20 +32,6 @@ Layers untouched_layers(const Frame& frame) {
   layers.reflection = layers.glare = layers.normal = filled(width, height, 3, 0.0f);
   layers.depth = filled(width, height, 1, std::numeric_limits<float>::infinity());
   return layers;
-}
-
-/// R = plate * shadow * (1 - object.A) + object.R + glare.R, and A = 1: the composite fills the frame.
-Image recomposed(const Layers& layers) {
-  Image rgba(layers.plate.width, layers.plate.height, 4);
-  const std::size_t pixels = static_cast<std::size_t>(rgba.width) * rgba.height;
-  for (std::size_t i = 0; i < pixels; ++i) {
-    const float uncovered = 1.0f - layers.object.data[4 * i + 3];
-    for (std::size_t c = 0; c < 3; ++c)
-      rgba.data[4 * i + c] = layers.plate.data[3 * i + c] * layers.shadow.data[3 * i + c] * uncovered +
-                             layers.object.data[4 * i + c] + layers.glare.data[3 * i + c];
-    rgba.data[4 * i + 3] = 1.0f;
-  }
-  return rgba;
 }
 
 Image coverage(const Image& object) {
@@ -64,7 +50,7 @@ class ExrLayerOutput : public FrameOutput {
     const std::string path = pattern_.file(frame.number()).string();
     check_output_path(path, overwrite_);
     const Layers layers = composite.layers ? *composite.layers : untouched_layers(frame);
-    const Image rgba = recomposed(layers), matte = coverage(layers.object);
+    const Image rgba = recompose(layers), matte = coverage(layers.object);
     const std::vector<std::string> rgb = {"R", "G", "B"};
     render::write_exr(path, {{"", &rgba, {"R", "G", "B", "A"}},
                              {"", &layers.depth, {"Z"}, true},

@@ -1,12 +1,15 @@
 // overlay, track and replay as users run them: what they write, and what they say about bad input.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "render/probe/probe.hpp"
+#include "tests/support/layers_file.hpp"
 #include "tests/support/run_command.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -40,14 +43,14 @@ class OverlayCommand : public ::testing::Test {
  protected:
   /// The shipped recording in a folder of its own, for tests that spoil it. Its footage is `frames` frames long; its probe is
   /// small, as filtering a large one is most of what a short run costs.
-  std::string copied_recording(int frames = 6) {
-    const std::string copy = folder_.path("recording");
+  std::string copied_recording(int frames = 6, const std::string& name = "matte") {
+    const std::string copy = folder_.path("recording"), original = recording(name);
     fs::create_directories(copy);
-    for (const char* file : {"camera.yaml", "scene.toml", "object.glb"}) fs::copy(recording() + "/" + file, copy + "/" + file);
-    const render::Probe probe = render::load_probe(recording() + "/probe.exr", {}, {});
+    for (const char* file : {"camera.yaml", "scene.toml", "object.glb"}) fs::copy(original + "/" + file, copy + "/" + file);
+    const render::Probe probe = render::load_probe(original + "/probe.exr", {}, {});
     render::save_probe(copy + "/probe.exr", render::convert(probe, render::ProbeLayout::latlong, 64));
-    run_shell("ffmpeg -v error -nostdin -i " + recording() + "/video.mp4 -frames:v " + std::to_string(frames) + " -c copy " +
-              copy + "/video.mp4");
+    run_shell("ffmpeg -v error -nostdin -i " + original + "/video.mp4 -frames:v " + std::to_string(frames) + " -c copy " + copy +
+              "/video.mp4");
     return copy;
   }
 
@@ -153,11 +156,43 @@ TEST_F(OverlayCommand, DebugDrawsOverTheFrameAndNotIntoLayers) {
   expect_refused(overlay(copy, layers, {"--debug"}), layers, {"--debug", "layers.%04d.exr"}, 2);
 }
 
+/// Every channel is rounded to half of its own: by 2^-11 of its value, and 2^-25 near 0.
+void expect_recomposed(const LayersFile& file) {
+  const Image recomposed = recompose(file.layers);
+  for (int y = 0; y < recomposed.height; ++y)
+    for (int x = 0; x < recomposed.width; ++x) {
+      const float* object = file.layers.object.pixel(x, y);
+      for (int c = 0; c < 3; ++c) {
+        const double value = file.rgba.pixel(x, y)[c], plate = file.layers.plate.pixel(x, y)[c],
+                     shadow = file.layers.shadow.pixel(x, y)[c], glare = file.layers.glare.pixel(x, y)[c];
+        const double error = std::ldexp(std::abs(value) + (2 + object[3]) * plate * shadow + std::abs(object[c]) + glare, -11);
+        ASSERT_NEAR(recomposed.pixel(x, y)[c], value, 1.01 * error + 1e-6) << x << ", " << y;
+      }
+    }
+}
+
+void expect_depth_where_an_object_is(const LayersFile& file) {
+  for (std::size_t i = 0; i < file.matte.data.size(); ++i)
+    ASSERT_EQ(std::isfinite(file.layers.depth.data[i]), file.layers.object.data[4 * i + 3] > 0) << i;
+}
+
 TEST_F(OverlayCommand, ExrLayersRecomposeToTheComposite) {
-  const std::string copy = copied_recording(1);
-  ASSERT_EQ(overlay(copy, folder_.path("layers.%04d.exr")).exit_code, 0);
+  const std::string copy = copied_recording(2, "dazzle"), poses = read_text(recording("dazzle") + "/poses.csv");
+  // Without the second frame's pose.
+  const std::string track = folder_.write("track.csv", poses.substr(0, poses.find('\n', poses.find('\n') + 1) + 1));
+  ASSERT_EQ(overlay(copy, folder_.path("layers.%04d.exr"), {"--track", track}).exit_code, 0);
   run_shell("ffmpeg -v error -nostdin -i " + folder_.path("layers.0000.exr") + " " + folder_.path("composite.png"));
   EXPECT_FALSE(cv::imread(folder_.path("composite.png")).empty());
+
+  const LayersFile posed = read_layers(folder_.path("layers.0000.exr")), unposed = read_layers(folder_.path("layers.0001.exr"));
+  EXPECT_GT(*std::ranges::max_element(posed.layers.glare.data), 0.01f);
+  EXPECT_LT(*std::ranges::min_element(posed.layers.shadow.data), 0.9f);
+  EXPECT_EQ(*std::ranges::max_element(posed.matte.data), 1.0f);
+  EXPECT_EQ(*std::ranges::max_element(unposed.matte.data), 0.0f);
+  for (const LayersFile* file : {&posed, &unposed}) {
+    expect_recomposed(*file);
+    expect_depth_where_an_object_is(*file);
+  }
 }
 
 TEST_F(OverlayCommand, FramesOfASequenceKeepTheirNumbers) {

@@ -165,13 +165,11 @@ TEST_F(ReceiverGl, LayersRecombineToThePicture) {
   ASSERT_TRUE(composite.layers);
   EXPECT_TRUE(composite.glare_drawn);
   EXPECT_EQ(composite.rect, (PixelRect{0, 0, 160, 120}));
-  const Layers& layers = *composite.layers;
+  const Image recomposed = recompose(*composite.layers);
   for (int y = 0; y < 120; ++y) {
     for (int x = 0; x < 160; ++x) {
       for (int c = 0; c < 3; ++c) {
-        const float* object = layers.object.pixel(x, y);
-        const double sum = layers.plate.pixel(x, y)[c] * layers.shadow.pixel(x, y)[c] * (1 - object[3]) + object[c] +
-                           layers.glare.pixel(x, y)[c];
+        const double sum = recomposed.pixel(x, y)[c];
         ASSERT_NEAR(pixel_at(composite, x, y)[c], sum, 1e-5 * (1 + sum)) << x << ", " << y;
       }
     }
@@ -187,7 +185,7 @@ TEST_F(ReceiverGl, LayersHoldGeometry) {
   EXPECT_GT(layers.normal.pixel(90, 60)[0], 0.3) << "camera x is picture right";
   EXPECT_EQ(layers.object.pixel(80, 60)[3], 1.0f);
   EXPECT_GT(layers.reflection.pixel(80, 60)[0], 1.0f);
-  EXPECT_EQ(*layers.depth.pixel(0, 0), 0.0f);
+  EXPECT_EQ(*layers.depth.pixel(0, 0), std::numeric_limits<float>::infinity()) << "nothing is there";
   EXPECT_EQ(layers.object.pixel(0, 0)[3], 0.0f);
   EXPECT_EQ(layers.shadow.pixel(0, 0)[0], 1.0f);
 }
@@ -200,6 +198,7 @@ TEST_F(ReceiverGl, LayersWithNothingInSightAreThePlate) {
   ASSERT_TRUE(composite.layers);
   EXPECT_NEAR(composite.layers->plate.pixel(3, 4)[1], 0.5f, 1e-6);
   EXPECT_EQ(composite.layers->object.pixel(80, 60)[3], 0.0f);
+  EXPECT_EQ(*composite.layers->depth.pixel(80, 60), std::numeric_limits<float>::infinity());
   for (std::size_t i = 3; i < composite.rgba.size(); i += 4) ASSERT_EQ(composite.rgba[i], 0.0f);
 }
 
