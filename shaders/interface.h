@@ -98,6 +98,7 @@ struct SurfaceMaterial {
   vec4 base_color_metallic;
   vec4 emissive_roughness;
   vec4 dielectric;  // f0, f90
+  vec4 unlit_color;  // exposed linear
 };
 
 UNIFORM_BLOCK(LightUniforms, BINDING_LIGHT) {

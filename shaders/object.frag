@@ -57,10 +57,11 @@ void main() {
   }
 
   // What the dielectric boundary mirrors does not reach the pigment below it.
-  vec3 radiance = diffuse * factor.a + reflected + m.emissive_roughness.rgb;
+  vec3 emitted = emitted_radiance(m, surface.color);
+  vec3 radiance = diffuse * factor.a + reflected + emitted;
 
   object_color = vec4(exposed(radiance), 1.0);
   reflection_color = vec4(exposed(reflected), 1.0);
-  emission_color = vec4(exposed(m.emissive_roughness.rgb), 1.0);
+  emission_color = vec4(exposed(emitted), 1.0);
   normal_depth = vec4(mat3(view.camera_from_tag) * n, (view.camera_from_tag * vec4(surface.position_tag_m, 1.0)).z);
 }

@@ -21,6 +21,11 @@ vec3 mirror_f0(SurfaceMaterial m, vec3 color) {
   return mix(vec3(m.dielectric.x), m.base_color_metallic.rgb * color, m.base_color_metallic.a);
 }
 
+// Radiance of the surface's own; what is unlit has the radiance that the exposure brings to its colour.
+vec3 emitted_radiance(SurfaceMaterial m, vec3 color) {
+  return m.emissive_roughness.rgb + m.unlit_color.rgb * color / max(view.exposure.rgb, vec3(1e-20));
+}
+
 float mirror_f90(SurfaceMaterial m) { return mix(m.dielectric.y, 1.0, m.base_color_metallic.a); }
 
 // What a rough surface reflects after more than one meeting with its microfacets, as a factor on what it does after one: a metal that
@@ -59,7 +64,7 @@ vec3 object_radiance(RayHit hit, vec3 origin, vec3 direction, float spread, floa
   // The ray stands for a bundle, which the second surface spreads further.
   float both = sqrt(sqrt(pow(roughness, 4.0) + pow(share, 4.0)));
   vec3 mirrored = surroundings(origin + hit.distance_m * direction, reflect(direction, n), spread + roughness * roughness, both, true);
-  return diffuse * factor.a + mirrored * factor.rgb + m.emissive_roughness.rgb;
+  return diffuse * factor.a + mirrored * factor.rgb + emitted_radiance(m, color);
 }
 
 vec3 radiance_along(vec3 origin, vec3 direction, float spread, float roughness, bool with_lights) {

@@ -61,6 +61,7 @@ Image trace_reference_frame(const Frame& frame, const TrackRow& row, const Camer
   reference::ReferenceScene scene = traced_scene(settings, row, warn);
   const Exposure exposure = exposure_of(scene, settings, row);
   scene.frame = {radiance_of(plate, exposure), lens, row.camera_from_tag};
+  scene.unlit_radiance = 1.0 / glm::max(exposure.gain, 1e-20);
   reference::TraceOptions options;
   options.samples = quality.samples;
   options.bounces = quality.bounces;

@@ -76,6 +76,16 @@ glm::dmat3 uv_transform(const tinygltf::Value* transform) {
           glm::dvec3(number_at(transform, "offset", 0, 0), number_at(transform, "offset", 1, 0), 1)};
 }
 
+// KHR_materials_unlit: the base colour alone counts, as it is.
+Material unlit(const Material& lit) {
+  Material material;
+  material.name = lit.name;
+  material.base_color = glm::vec3(0);
+  material.dielectric_f0 = 0;
+  material.unlit_color = lit.base_color;
+  return material;
+}
+
 }  // namespace
 
 bool keep_image_bytes(tinygltf::Image* image, int, std::string*, std::string*, int, int, const unsigned char* bytes, int size,
@@ -94,6 +104,7 @@ Material material_of(const tinygltf::Material& source) {
   material.dielectric_f0 = dielectric_f0(source);
   const double strength = number(extension(source.extensions, "KHR_materials_emissive_strength"), "emissiveStrength", 1.0);
   material.emissive = glm::max(factor(source.emissiveFactor, glm::vec3(0)) * static_cast<float>(strength), 0.0f);
+  if (extension(source.extensions, "KHR_materials_unlit")) return unlit(material);
   return material;
 }
 

@@ -16,6 +16,7 @@ struct Material {
   float roughness = 1.0f;       ///< perceptual; alpha = roughness^2
   float dielectric_f0 = 0.04f;  ///< ((ior-1)/(ior+1))^2 * KHR_materials_specular.specularFactor
   glm::vec3 emissive{0.0f};     ///< radiance
+  glm::vec3 unlit_color{0.0f};  ///< with Vertex::color the exposed linear value that is added, whatever light and exposure are
 };
 
 struct Vertex {

@@ -73,8 +73,10 @@ void ObjectPass::upload_materials(const Mesh& mesh) {
   for (const Material& material : mesh.materials) {
     // Where nothing is mirrored face on, nothing is at grazing angles: f90 follows f0 below 2 % (Lagarde & de Rousiers 2014).
     const float f90 = std::clamp(50.0f * material.dielectric_f0, 0.0f, 1.0f);
-    materials.push_back(
-        {{material.base_color, material.metallic}, {material.emissive, material.roughness}, {material.dielectric_f0, f90, 0, 0}});
+    materials.push_back({{material.base_color, material.metallic},
+                         {material.emissive, material.roughness},
+                         {material.dielectric_f0, f90, 0, 0},
+                         {material.unlit_color, 0}});
     emits_ = emits_ || material.emissive != glm::vec3(0);
     reflects_ = reflects_ || material.metallic > 0 || material.dielectric_f0 > 0;
   }

@@ -121,7 +121,8 @@ LightPaths::Surface LightPaths::surface_at(const Meeting& meeting, const glm::dv
   if (!(glm::dot(normal, -direction) > 1e-3 && glm::dot(normal, outward) > 0)) normal = outward;
   const Material& material = mesh.materials[mesh.triangle_material[hit.triangle]];
   const glm::vec3 color = w.x * corner(0).color + w.y * corner(1).color + w.z * corner(2).color;
-  return {meeting.position_m, outward, frame_around(normal), Brdf(material, color), material.emissive};
+  const glm::dvec3 emitted = glm::dvec3(material.emissive) + glm::dvec3(material.unlit_color * color) * scene_.unlit_radiance;
+  return {meeting.position_m, outward, frame_around(normal), Brdf(material, color), emitted};
 }
 
 glm::dvec3 LightPaths::receiver_radiance(const glm::dvec3& point_m) const {

@@ -31,6 +31,7 @@ struct ReferenceScene {
   bool has_receiver = false;
   glm::dvec3 probe_in_tag_m{0.0};  ///< where the probe was captured
   std::optional<FrameLight> frame;
+  glm::dvec3 unlit_radiance{1.0};  ///< of a surface whose unlit colour is 1
 };
 
 }  // namespace catchlight::render::reference

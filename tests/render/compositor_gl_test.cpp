@@ -157,6 +157,22 @@ TEST_F(CompositorGl, ExposureScalesLinearly) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(scaled[c] / (once[c] * view.exposure[c]), 1.0, 1e-6);
 }
 
+TEST_F(CompositorGl, UnlitSurfacesShowTheirColourWhateverLightAndExposureAre) {
+  Material label = matte(glm::vec3(0));
+  label.unlit_color = {0.9f, 0.02f, 0.3f};
+  FrameView view = view_from_above();
+  for (const float radiance : {0.0f, 1.0f, 40.0f}) {
+    Compositor compositor(constant_scene(sphere(0.05, {0, 0, 0.05}), label, glm::vec3(radiance)), {});
+    for (const float exposure : {0.01f, 1.0f, 7.0f}) {
+      view.exposure = glm::vec3(exposure, 2 * exposure, 0.3f * exposure);
+      const Composite composite = compositor.render(view, plate_u8(128));
+      EXPECT_FALSE(composite.glare_drawn);
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(pixel_at(composite, 80, 60)[c], srgb_from_linear(label.unlit_color[c]), 0.1 / 255) << radiance << exposure;
+    }
+  }
+}
+
 TEST_F(CompositorGl, IntegerPlatesEndAtWhite) {
   Compositor compositor(matte_sphere(glm::vec3(1)), without_glare());
   FrameView view = view_from_above();

@@ -253,6 +253,21 @@ TEST_F(GltfFile, MaterialExtensions) {
   EXPECT_EQ(material.emissive, glm::vec3(4, 2, 0));
 }
 
+TEST_F(GltfFile, UnlitMaterialsShowTheirBaseColourAndNothingElse) {
+  Gltf gltf = triangle();
+  gltf.primitive += R"(,"material":0)";
+  gltf.materials =
+      R"({"name":"label","pbrMetallicRoughness":{"baseColorFactor":[1,0.02,0.3,1],"metallicFactor":1,"roughnessFactor":0.1},
+    "emissiveFactor":[1,0.5,0],"extensions":{"KHR_materials_unlit":{}}})";
+  const Material material = load(gltf).materials.at(0);
+  EXPECT_EQ(material.name, "label");
+  EXPECT_LT(glm::distance(material.unlit_color, glm::vec3(1, 0.02f, 0.3f)), 1e-6f);
+  EXPECT_EQ(material.base_color, glm::vec3(0)) << "takes no light";
+  EXPECT_EQ(material.metallic, 0.0f);
+  EXPECT_EQ(material.dielectric_f0, 0.0f) << "mirrors nothing";
+  EXPECT_EQ(material.emissive, glm::vec3(0)) << "what else the file says is for programs that know no unlit";
+}
+
 TEST_F(GltfFile, UnknownRequiredExtensionIsNamed) {
   Gltf gltf = triangle();
   gltf.extra = R"("extensionsUsed":["KHR_draco_mesh_compression"],"extensionsRequired":["KHR_draco_mesh_compression"],)";

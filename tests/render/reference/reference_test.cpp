@@ -287,6 +287,18 @@ TEST(ReferenceLight, EmissiveSurfacesShine) {
   EXPECT_EQ(mean_of(tracer.render(view.camera, view.camera_from_tag, {}).object), glm::dvec3(3, 2, 1));
 }
 
+TEST(ReferenceLight, UnlitSurfacesHaveTheRadianceThatTheirColourIsExposedFrom) {
+  Material label = white();
+  label.base_color = glm::vec3(0);
+  label.unlit_color = {0.5f, 0.25f, 1};
+  const Portrait view;
+  ReferenceScene scene = scene_of(with_material(sphere({0, 0, 0}, 1, 32), label), constant_sky(glm::vec3(3)), false);
+  scene.unlit_radiance = {2, 4, 8};
+  label.dielectric_f0 = 0;
+  scene.mesh = with_material(sphere({0, 0, 0}, 1, 32), label);
+  EXPECT_EQ(mean_of(PathTracer(scene, with(4)).render(view.camera, view.camera_from_tag, {}).object), glm::dvec3(1, 1, 8));
+}
+
 // --- what it is made of -----------------------------------------------------------------------------------------------------
 
 TEST(ReferenceTracer, DoesNotDependOnThreads) {
