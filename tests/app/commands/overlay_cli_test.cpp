@@ -1,85 +1,21 @@
 // overlay, track and replay as users run them: what they write, and what they say about bad input.
 #include <gmock/gmock.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "render/probe/probe.hpp"
-#include "tests/support/layers_file.hpp"
-#include "tests/support/run_command.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/app/commands/overlay_command.hpp"
 
 namespace catchlight::tests {
 namespace {
 
 namespace fs = std::filesystem;
-using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
-
-std::string recording(const std::string& name = "matte") {
-  return CATCHLIGHT_SOURCE_DIR "/recordings/" + name;
-}
-
-void run_shell(const std::string& command) {
-  ASSERT_EQ(std::system(command.c_str()), 0) << command;
-}
-
-/// Few rays and bands: these tests are not about light.
-std::vector<std::string> quick(std::vector<std::string> arguments) {
-  for (const char* option : {"--quality.rays=64", "--quality.bands=2", "--quality.bounces=0", "--quality.receiver_points=16",
-                             "--quality.reflection_rays=0", "--quality.samples=1", "--preset=ultrafast"})
-    arguments.push_back(option);
-  return arguments;
-}
-
-class OverlayCommand : public ::testing::Test {
- protected:
-  /// The shipped recording in a folder of its own, for tests that spoil it. Its footage is `frames` frames long; its probe is
-  /// small, as filtering a large one is most of what a short run costs.
-  std::string copied_recording(int frames = 6, const std::string& name = "matte") {
-    const std::string copy = folder_.path("recording"), original = recording(name);
-    fs::create_directories(copy);
-    for (const char* file : {"camera.yaml", "scene.toml", "object.glb"}) fs::copy(original + "/" + file, copy + "/" + file);
-    const render::Probe probe = render::load_probe(original + "/probe.exr", {}, {});
-    render::save_probe(copy + "/probe.exr", render::convert(probe, render::ProbeLayout::latlong, 64));
-    run_shell("ffmpeg -v error -nostdin -i " + original + "/video.mp4 -frames:v " + std::to_string(frames) + " -c copy " + copy +
-              "/video.mp4");
-    return copy;
-  }
-
-  void replace_in(const std::string& path, const std::string& from, const std::string& to) {
-    std::string text = read_text(path);
-    const std::size_t at = text.find(from);
-    ASSERT_NE(at, std::string::npos) << from;
-    std::ofstream(path) << text.replace(at, from.size(), to);
-  }
-
-  CommandResult overlay(const std::string& location, const std::string& output, std::vector<std::string> more = {}) {
-    std::vector<std::string> arguments = {"overlay", location, "-o", output};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_catchlight(quick(arguments), {{"XDG_CACHE_HOME", folder_.path("cache")}});
-  }
-
-  /// Exit code 1, one message that holds all of `parts`, and nothing left in the output's place.
-  void expect_refused(const CommandResult& result, const std::string& output, const std::vector<std::string>& parts,
-                      int exit_code = 1) {
-    EXPECT_EQ(result.exit_code, exit_code) << result.error;
-    EXPECT_THAT(result.error, HasSubstr("catchlight: error: "));
-    for (const std::string& part : parts) EXPECT_THAT(result.error, HasSubstr(part));
-    EXPECT_FALSE(fs::exists(output));
-    EXPECT_EQ(result.output, "");
-  }
-
-  TemporaryFolder folder_;
-  std::string out_ = folder_.path("out.mkv");
-};
 
 // --- what it does -----------------------------------------------------------------------------------------------------
 
@@ -156,45 +92,6 @@ TEST_F(OverlayCommand, DebugDrawsOverTheFrameAndNotIntoLayers) {
   expect_refused(overlay(copy, layers, {"--debug"}), layers, {"--debug", "layers.%04d.exr"}, 2);
 }
 
-/// Every channel is rounded to half of its own: by 2^-11 of its value, and 2^-25 near 0.
-void expect_recomposed(const LayersFile& file) {
-  const Image recomposed = recompose(file.layers);
-  for (int y = 0; y < recomposed.height; ++y)
-    for (int x = 0; x < recomposed.width; ++x) {
-      const float* object = file.layers.object.pixel(x, y);
-      for (int c = 0; c < 3; ++c) {
-        const double value = file.rgba.pixel(x, y)[c], plate = file.layers.plate.pixel(x, y)[c],
-                     shadow = file.layers.shadow.pixel(x, y)[c], glare = file.layers.glare.pixel(x, y)[c];
-        const double error = std::ldexp(std::abs(value) + (2 + object[3]) * plate * shadow + std::abs(object[c]) + glare, -11);
-        ASSERT_NEAR(recomposed.pixel(x, y)[c], value, 1.01 * error + 1e-6) << x << ", " << y;
-      }
-    }
-}
-
-void expect_depth_where_an_object_is(const LayersFile& file) {
-  for (std::size_t i = 0; i < file.matte.data.size(); ++i)
-    ASSERT_EQ(std::isfinite(file.layers.depth.data[i]), file.layers.object.data[4 * i + 3] > 0) << i;
-}
-
-TEST_F(OverlayCommand, ExrLayersRecomposeToTheComposite) {
-  const std::string copy = copied_recording(2, "dazzle"), poses = read_text(recording("dazzle") + "/poses.csv");
-  // Without the second frame's pose.
-  const std::string track = folder_.write("track.csv", poses.substr(0, poses.find('\n', poses.find('\n') + 1) + 1));
-  ASSERT_EQ(overlay(copy, folder_.path("layers.%04d.exr"), {"--track", track}).exit_code, 0);
-  run_shell("ffmpeg -v error -nostdin -i " + folder_.path("layers.0000.exr") + " " + folder_.path("composite.png"));
-  EXPECT_FALSE(cv::imread(folder_.path("composite.png")).empty());
-
-  const LayersFile posed = read_layers(folder_.path("layers.0000.exr")), unposed = read_layers(folder_.path("layers.0001.exr"));
-  EXPECT_GT(*std::ranges::max_element(posed.layers.glare.data), 0.01f);
-  EXPECT_LT(*std::ranges::min_element(posed.layers.shadow.data), 0.9f);
-  EXPECT_EQ(*std::ranges::max_element(posed.matte.data), 1.0f);
-  EXPECT_EQ(*std::ranges::max_element(unposed.matte.data), 0.0f);
-  for (const LayersFile* file : {&posed, &unposed}) {
-    expect_recomposed(*file);
-    expect_depth_where_an_object_is(*file);
-  }
-}
-
 TEST_F(OverlayCommand, FramesOfASequenceKeepTheirNumbers) {
   const std::string copy = copied_recording(2), plates = folder_.path("plates");
   fs::create_directories(plates);
@@ -212,84 +109,6 @@ TEST_F(OverlayCommand, Y4mOnStdoutIsOnlyVideo) {
   ASSERT_EQ(result.exit_code, 0) << result.error;
   EXPECT_EQ(result.output.substr(0, 10), "YUV4MPEG2 ");
   EXPECT_EQ(result.error, "");
-}
-
-TEST_F(OverlayCommand, ExistingOutputsAreKeptWithoutY) {
-  const std::string copy = copied_recording(1);
-  std::ofstream(out_) << "precious";
-  EXPECT_EQ(overlay(copy, out_).exit_code, 2);
-  EXPECT_EQ(read_text(out_), "precious");
-  EXPECT_EQ(overlay(copy, out_, {"-y"}).exit_code, 0);
-  EXPECT_NE(read_text(out_), "precious");
-}
-
-/// The mesh is read after the footage is tracked: whatever is said before it is said before the work.
-TEST_F(OverlayCommand, WhatStandsInTheWayOfAnOutputIsNoticedBeforeTheWork) {
-  const std::string copy = copied_recording(3);
-  std::ofstream(copy + "/object.glb") << "no mesh";
-  for (const char* taken : {"comp.0001.png", "layers.0002.exr", "taken.json", "taken.csv"})
-    std::ofstream(folder_.path(taken)) << "precious";
-  fs::create_directories(folder_.path("folder.mp4"));
-  const std::string comp = folder_.path("comp.%04d.png"), layers = folder_.path("layers.%04d.exr");
-  const auto refused = [&](const std::string& output, const std::vector<std::string>& options, const std::string& named) {
-    const CommandResult result = overlay(copy, output, options);
-    EXPECT_THAT(result.error, AllOf(HasSubstr(named), Not(HasSubstr("object.glb"))));
-    EXPECT_NE(result.exit_code, 0);
-  };
-  refused(comp, {}, "comp.0001.png: exists already; pass -y");
-  refused(layers, {}, "layers.0002.exr: exists already; pass -y");
-  refused(layers, {"--frames", "2:"}, "layers.0002.exr: exists already");
-  refused(folder_.path("none/%04d.exr"), {}, "there is no folder");
-  refused("/proc/%04d.exr", {}, "/proc/0000.exr: cannot write into its folder");
-  refused("/proc/%04d.png", {}, "/proc/0000.png: cannot write into its folder");
-  refused("/proc/out.mp4", {}, "/proc/out.mp4: cannot write into its folder");
-  refused(folder_.path("folder.mp4"), {"-y"}, "folder.mp4: is a folder");
-  refused(out_, {"--report", folder_.path("taken.json")}, "taken.json: exists already");
-  refused(out_, {"--report", "/proc/report.json"}, "/proc/report.json: cannot write into its folder");
-  refused(out_, {"--track-out", folder_.path("taken.csv")}, "taken.csv: exists already");
-  refused(out_, {"--track-out", "/proc/track.csv"}, "/proc/track.csv: cannot write into its folder");
-  // What does not stand in the way.
-  EXPECT_THAT(overlay(copy, layers, {"--frames", "0:2"}).error, HasSubstr("object.glb"));
-  EXPECT_THAT(overlay(copy, layers, {"-y"}).error, HasSubstr("object.glb"));
-}
-
-TEST_F(OverlayCommand, LayersNeverReplaceTheFootage) {
-  const std::string copy = copied_recording(1), plates = folder_.path("plates");
-  fs::create_directories(plates);
-  run_shell("ffmpeg -v error -nostdin -i " + copy + "/video.mp4 " + plates + "/shot.%04d.exr");
-  const std::string before = read_text(plates + "/shot.0001.exr");
-  const CommandResult result = overlay(plates + "/shot.%04d.exr", plates + "/shot.%04d.exr",
-                                       {"-y", "--scene", copy + "/scene.toml", "--camera", copy + "/camera.yaml"});
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.error, HasSubstr("is the input itself"));
-  EXPECT_EQ(read_text(plates + "/shot.0001.exr"), before);
-}
-
-/// A recording that is not there is noticed when it is opened: whatever is said before it is said before the work.
-TEST_F(OverlayCommand, OtherCommandsLookAtTheirOutputsFirstToo) {
-  const std::string none = folder_.path("none"), taken = folder_.write("taken", "precious");
-  const auto refused = [&](const std::vector<std::string>& arguments, const std::string& named) {
-    const CommandResult result = run_catchlight(arguments);
-    EXPECT_THAT(result.error, HasSubstr(named));
-    EXPECT_NE(result.exit_code, 0);
-  };
-  refused({"track", none, "-o", "/proc/track.csv"}, "/proc/track.csv: cannot write into its folder");
-  refused({"track", none, "-o", folder_.path("track.csv"), "--report", "/proc/report.json"}, "/proc/report.json: cannot write");
-  refused({"reference", none, "--frame", "0", "-o", "/proc/traced.png"}, "/proc/traced.png: cannot write into its folder");
-  refused({"reference", none, "--frame", "0", "-o", "/proc/traced.exr"}, "/proc/traced.exr: cannot write into its folder");
-  refused({"calibrate", none, "--checkerboard", "9x6", "--square-m", "1", "-o", "/proc/camera.yaml"},
-          "/proc/camera.yaml: cannot");
-  refused({"glare", "--aperture", "circle", "-o", "/proc/glare.png"}, "/proc/glare.png: cannot write into its folder");
-
-  // Replays are of recordings that are there: these would be refused for what their scene files say.
-  const std::string recording = folder_.path("recording");
-  folder_.write("recording/scene.toml", "nonsense");
-  refused({"replay", recording, "-o", taken + "/sheets"}, taken + "/sheets: cannot be made");
-  refused({"replay", recording, "-o", "/proc/sheets"}, "/proc/sheets: cannot be made");
-  fs::create_directories(folder_.path("sheets/recording.png"));
-  refused({"replay", recording, "-o", folder_.path("sheets")}, "recording.png: is a folder");
-  fs::create_directories(recording + "/expected.toml");
-  refused({"replay", recording, "-o", folder_.path("others"), "--bless"}, "expected.toml: is a folder");
 }
 
 // --- footage ----------------------------------------------------------------------------------------------------------
