@@ -91,7 +91,8 @@ Result compared(const Image& glare, const Image& reference, const Times& times) 
 /// `excess_rows`: grid whose excess the reference is made from; 0: the fast passes' own.
 Result measure(const GlareSettings& settings, const Image& picture, int excess_rows = 0) {
   const int width = picture.width, height = picture.height;
-  GlarePass pass(settings, "");
+  ShaderLibrary shaders;
+  GlarePass pass(settings, shaders);
   const test::Glared fast = test::glared(pass, picture);
   GlareSettings finer = settings;
   if (excess_rows > 0) finer.grid_rows = excess_rows;
@@ -128,14 +129,15 @@ void add_stretched(const GlTexture& texture, int size, double weight, Image& pic
 Result measure_classic(const Image& picture) {
   const int width = picture.width, height = picture.height;
   GlareSettings settings;
-  GlarePass pass(settings, "");
+  ShaderLibrary shaders;
+  GlarePass pass(settings, shaders);
   const test::Glared fast = test::glared(pass, picture);
   const Image excess = at_frame_pixels(fast.excess, fast.grid, width, height);
   settings.streak_passes = 0;
   const FftConvolution convolution(glare_kernel(settings, height, 2 * width - 1, 2 * height - 1), width, height);
   const Image reference = convolution.convolve(excess);
   const GlTexture object = test::upload(picture);
-  ClassicLook look("");
+  ClassicLook look(shaders);
   std::vector<double> classic_ms, reference_ms;
   for (int run = 0; run < kRuns; ++run) {
     classic_ms.push_back(time_ms([&] { look.draw(object, width, height, 1, 0.9); }));

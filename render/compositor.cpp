@@ -10,6 +10,7 @@
 #include "render/camera/lens.hpp"
 #include "render/gl/gl_context.hpp"
 #include "render/gl/pass_clock.hpp"
+#include "render/gl/shader_library.hpp"
 #include "render/mesh/mesh.hpp"
 #include "render/passes/composite_pass.hpp"
 #include "render/passes/glare/aperture_glare_pass.hpp"
@@ -90,6 +91,7 @@ struct Compositor::Impl {
   glm::vec3 probe_in_tag_m;
   Box box;
   PassClock clock;
+  ShaderLibrary shaders;
   LightTransfer light;
   ShadowedLights lights;
   ObjectPass object;
@@ -112,19 +114,20 @@ Compositor::Impl::Impl(const RenderScene& scene, const CompositorSettings& wante
       light_probe(light_of(checked(scene))),
       probe_in_tag_m(scene.probe_in_tag_m),
       box(bounding_box(scene.mesh)),
-      light(wanted.shader_folder),
-      lights(static_cast<int>(scene.lights.size()), sphere_around(box), wanted.shader_folder),
+      shaders(wanted.shader_folder),
+      light(shaders),
+      lights(static_cast<int>(scene.lights.size()), sphere_around(box), shaders),
       object(scene.mesh, LitPoints("object", scene.transfer.object, scene.transfer.object_direct, sh_count(scene.transfer.bands)),
-             scene.reflections, scene.rest_reflections, wanted.shader_folder),
-      lens_blur(wanted.shader_folder),
-      glare(wanted.glare, wanted.shader_folder),
-      composite(wanted.shader_folder) {
+             scene.reflections, scene.rest_reflections, shaders),
+      lens_blur(shaders),
+      glare(wanted.glare, shaders),
+      composite(shaders) {
   settings.samples = supported_samples(wanted.samples);
-  if (wanted.tone.enabled || wanted.look == Look::classic) tone = std::make_unique<TonePass>(wanted, wanted.shader_folder);
+  if (wanted.tone.enabled || wanted.look == Look::classic) tone = std::make_unique<TonePass>(wanted, shaders);
   if (wanted.look == Look::classic) settings.glare.enabled = false;  // that look has its own
   if (settings.glare.enabled && wanted.glare.method == "fft") aperture_glare = std::make_unique<ApertureGlarePass>(wanted.glare);
   if (scene.transfer.grid.columns >= 2 && scene.transfer.grid.rows >= 2)
-    receiver = std::make_unique<ReceiverPass>(scene.transfer, wanted.shader_folder);
+    receiver = std::make_unique<ReceiverPass>(scene.transfer, shaders);
   check_gl("the compositor's start");
 }
 
@@ -323,6 +326,11 @@ ToneCurve Compositor::meter(const FrameView& view, const PlateReader& plate) {
 
 const std::vector<PassTime>& Compositor::pass_times() const {
   return impl_->times;
+}
+
+std::vector<std::string> Compositor::reload_shaders() {
+  impl_->lit_from.reset();  // what is drawn once and kept is drawn with the new programs too
+  return impl_->shaders.reload();
 }
 
 }  // namespace catchlight::render

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "catchlight/composite.hpp"
@@ -29,8 +30,12 @@ class Compositor {
   /// Composite::tone_wanted alone: the frame is drawn, but neither coded nor read back.
   ToneCurve meter(const FrameView& view, const PlateReader& plate);
 
-  /// Of the last frame.
+  /// How long the last frame's passes took.
   const std::vector<PassTime>& pass_times() const;
+
+  /// Compiles anew what was edited in the settings' shader_folder; a program that does not compile stays as it was. Returns what
+  /// is wrong with those, by file and line.
+  std::vector<std::string> reload_shaders();
 
  private:
   struct Impl;

@@ -3,7 +3,7 @@
 #include "interface.h"
 
 layout(binding = TEXTURE_SOURCE) uniform sampler2D source;
-layout(location = 0) uniform ivec2 axis;
+uniform ivec2 axis;
 layout(location = 0) out vec4 result;
 
 const int kReach = 7;

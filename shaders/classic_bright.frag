@@ -3,9 +3,9 @@
 #version 450 core
 #include "interface.h"
 
-layout(binding = TEXTURE_SOURCE) uniform sampler2D scene; // linear, the picture in its first texels
-layout(location = 0) uniform ivec2 size;                   // of the picture
-layout(location = 1) uniform float threshold;              // luminance
+layout(binding = TEXTURE_SOURCE) uniform sampler2D scene;  // linear, the picture in its first texels
+uniform ivec2 size;                                        // of the picture
+uniform float threshold;                                   // luminance
 
 layout(location = 0) out vec4 bright;
 

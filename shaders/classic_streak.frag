@@ -3,8 +3,8 @@
 #include "interface.h"
 
 layout(binding = TEXTURE_SOURCE) uniform sampler2D source;
-layout(location = 0) uniform ivec2 step_texels;
-layout(location = 1) uniform vec2 weight;  // a^b, scale of the sum
+uniform ivec2 step_texels;
+uniform vec2 weight;  // a^b, scale of the sum
 layout(location = 0) out vec4 result;
 
 void main() {

@@ -7,8 +7,8 @@
 #endif
 
 layout(binding = TEXTURE_SOURCE) uniform sampler2D source;
-layout(location = 0) uniform ivec2 axis;
-layout(location = 1) uniform float taps[TAPS];  // at distance 0, 1, 2 ...
+uniform ivec2 axis;
+uniform float taps[TAPS];  // at distance 0, 1, 2 ...
 layout(location = 0) out vec4 result;
 
 void main() {

@@ -4,9 +4,9 @@
 #include "interface.h"
 
 layout(binding = TEXTURE_SOURCE) uniform sampler2D filtered;
-layout(location = 0) uniform float threshold;
-layout(location = 1) uniform float brightest;
-layout(location = 2) uniform float emitter_strength;
+uniform float threshold;
+uniform float brightest;
+uniform float emitter_strength;
 layout(location = 0) out vec4 excess;
 layout(location = 1) out vec4 excess_reflected;  // its two parts
 layout(location = 2) out vec4 excess_emitted;

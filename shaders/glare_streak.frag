@@ -9,12 +9,12 @@
 
 layout(binding = TEXTURE_SOURCE) uniform sampler2D source;
 // Few uniforms, and the rest computed: on a software rasteriser an array of weights costs as much as the reads.
-layout(location = 0) uniform vec2 offset;  // of the source's texels from the target's
-layout(location = 1) uniform vec2 pace;    // texels from one sample to the next, whole along the streak's larger axis
-layout(location = 2) uniform ivec2 across; // the other axis
-layout(location = 3) uniform vec3 gain;
-layout(location = 4) uniform vec3 falloff; // from one sample to the next
-layout(location = 5) uniform ivec4 bounds; // first and last texel of the source that counts
+uniform vec2 offset;   // of the source's texels from the target's
+uniform vec2 pace;     // texels from one sample to the next, whole along the streak's larger axis
+uniform ivec2 across;  // the other axis
+uniform vec3 gain;
+uniform vec3 falloff;  // from one sample to the next
+uniform ivec4 bounds;  // first and last texel of the source that counts
 layout(location = 0) out vec4 result;
 
 vec3 light_at(ivec2 texel) {

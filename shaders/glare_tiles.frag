@@ -7,10 +7,10 @@
 #endif
 
 layout(binding = TEXTURE_SOURCE) uniform sampler2D source;
-layout(location = 0) uniform ivec2 first_pixel;  // of the frame, that the source's texel 0 holds
-layout(location = 1) uniform ivec2 source_size;  // how much of the source is filled
-layout(location = 2) uniform float texel_px;
-layout(location = 3) uniform float threshold;
+uniform ivec2 first_pixel;  // of the frame, that the source's texel 0 holds
+uniform ivec2 source_size;  // how much of the source is filled
+uniform float texel_px;
+uniform float threshold;
 layout(location = 0) out float result;
 
 void main() {

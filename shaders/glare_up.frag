@@ -5,8 +5,8 @@
 
 layout(binding = TEXTURE_SOURCE) uniform sampler2D own;
 layout(binding = TEXTURE_COARSER) uniform sampler2D coarser;
-layout(location = 0) uniform float own_gain;
-layout(location = 1) uniform float coarser_gain;
+uniform float own_gain;
+uniform float coarser_gain;
 layout(location = 0) out vec4 result;
 
 void main() {

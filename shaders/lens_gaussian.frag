@@ -4,10 +4,10 @@
 
 layout(binding = TEXTURE_OBJECT) uniform sampler2D object;  // premultiplied exposed linear
 layout(binding = TEXTURE_SHADOW) uniform sampler2D shadow;  // ratio
-layout(location = 0) uniform ivec2 step_px;
-layout(location = 1) uniform ivec2 size;                    // of what the textures hold
-layout(location = 2) uniform int count;
-layout(location = 3) uniform float weights[LENS_BLUR_TAPS];  // of the middle and of each side
+uniform ivec2 step_px;
+uniform ivec2 size;                                         // of what the textures hold
+uniform int count;
+uniform float weights[LENS_BLUR_TAPS];                      // of the middle and of each side
 
 layout(location = 0) out vec4 object_blurred;
 layout(location = 1) out vec4 shadow_blurred;

@@ -4,12 +4,12 @@
 
 layout(binding = TEXTURE_OBJECT) uniform sampler2D object;  // premultiplied exposed linear
 layout(binding = TEXTURE_SHADOW) uniform sampler2D shadow;  // ratio
-layout(location = 0) uniform ivec2 size;                    // of what the textures hold
+uniform ivec2 size;                                         // of what the textures hold
 // Pixels of way at the first pixel, and how it changes.
-layout(location = 1) uniform vec2 object_way;
-layout(location = 2) uniform mat2 object_change;
-layout(location = 3) uniform vec2 shadow_way;
-layout(location = 4) uniform mat2 shadow_change;
+uniform vec2 object_way;
+uniform mat2 object_change;
+uniform vec2 shadow_way;
+uniform mat2 shadow_change;
 
 layout(location = 0) out vec4 object_blurred;
 layout(location = 1) out vec4 shadow_blurred;

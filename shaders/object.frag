@@ -11,7 +11,7 @@ in Surface {
   vec3 color;
   vec3 exit_radiance;
 } surface;
-layout(location = 0) uniform int material_index;
+uniform int material_index;
 
 // Exposed linear in the plate's primaries.
 layout(location = 0) out vec4 object_color;

@@ -3,7 +3,7 @@
 #include "interface.h"
 
 layout(location = ATTRIBUTE_POSITION) in vec3 position_m;
-layout(location = 0) uniform int light_sample;
+uniform int light_sample;
 
 void main() {
   vec3 to_light = light_samples.to_light[light_sample].xyz, right = light_samples.right[light_sample].xyz;

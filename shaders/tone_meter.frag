@@ -2,8 +2,8 @@
 #version 450 core
 #include "interface.h"
 
-layout(binding = TEXTURE_SOURCE) uniform sampler2D scene; // linear
-layout(location = 0) uniform vec3 luminance_weights;
+layout(binding = TEXTURE_SOURCE) uniform sampler2D scene;  // linear
+uniform vec3 luminance_weights;
 layout(std430, binding = BINDING_LUMINANCES) buffer Luminances { uint bins[]; };  // count and sum of the rest (two words), a bin each
 
 const uint kRestBits = 17;                                   // of 23 in the mantissa: 64 bins an octave

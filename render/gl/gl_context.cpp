@@ -18,7 +18,7 @@ thread_local std::string current_platform = "unknown";
 
 void GLAPIENTRY remember_message(GLenum source, GLenum, GLuint, GLenum severity, GLsizei length, const GLchar* text,
                                  const void*) {
-  // make_program() reports what compilers say, with the files' names.
+  // Program reports what compilers say, with the files' names.
   if (source == GL_DEBUG_SOURCE_SHADER_COMPILER) return;
   // An exception must not cross the driver's frames: keep the first message until check_gl().
   if (severity == GL_DEBUG_SEVERITY_HIGH && pending_message.empty()) pending_message.assign(text, length);

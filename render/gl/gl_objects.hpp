@@ -92,6 +92,10 @@ GlFramebuffer make_framebuffer(const std::string& label);
 GlVertexArray make_vertex_array(const std::string& label);
 GlQuery make_query(GLenum target);
 
+inline void bind_storage(GLuint binding, GLuint buffer) {
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer);
+}
+
 /// A uniform block's buffer, rewritten each frame.
 template <typename Block>
 class UniformBuffer {

@@ -1,13 +1,10 @@
 #include "render/gl/point_capture.hpp"
 
 #include <glm/glm.hpp>
-
-#include "render/gl/shader.hpp"
-
 namespace catchlight::render {
 
-PointCapture::PointCapture(const std::string& vertex_shader, const char* output, const std::string& shader_folder)
-    : program_(make_program({.vertex = vertex_shader, .fragment = {}, .captured = {output}}, shader_folder)),
+PointCapture::PointCapture(const std::string& vertex_shader, const std::string& output, ShaderLibrary& shaders)
+    : program_(shaders.program({.vertex = vertex_shader, .captured = output})),
       no_attributes_(make_vertex_array("no attributes")),
       no_pixels_(make_framebuffer("no pixels")) {
   glNamedFramebufferParameteri(no_pixels_.id(), GL_FRAMEBUFFER_DEFAULT_WIDTH, 1);

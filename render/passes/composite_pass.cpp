@@ -8,7 +8,6 @@
 #include "catchlight/response.hpp"
 #include "render/camera/lens.hpp"
 #include "render/gl/read_back.hpp"
-#include "render/gl/shader.hpp"
 
 namespace catchlight::render {
 namespace {
@@ -77,11 +76,9 @@ glm::ivec4 as_vector(const PixelRect& rect) {
 
 }  // namespace
 
-CompositePass::CompositePass(const std::string& shader_folder)
-    : program_(make_program({.vertex = "fullscreen.vert", .fragment = "composite.frag", .captured = {}}, shader_folder)),
-      plate_light_program_(
-          make_program({.vertex = "fullscreen.vert", .fragment = "plate_light.frag", .captured = {}}, shader_folder)),
-      no_attributes_(make_vertex_array("no attributes")),
+CompositePass::CompositePass(ShaderLibrary& shaders)
+    : program_(shaders.program(fullscreen("composite.frag"))),
+      plate_light_program_(shaders.program(fullscreen("plate_light.frag"))),
       black_(make_texture_2d("black", GL_RGBA8, 1, 1)) {
   glClearTexImage(black_.id(), 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
 }
@@ -115,7 +112,7 @@ void CompositePass::upload_curve(const std::shared_ptr<const ResponseCurve>& cur
     response_ = make_buffer("response", std::span<const float>(light));
     uploaded_curve_ = curve;
   }
-  if (curve) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_RESPONSE, response_.id());
+  if (curve) bind_storage(BINDING_RESPONSE, response_.id());
 }
 
 void CompositePass::update_uniforms(const FrameView& view, const VirtualLayer& layer, bool as_light) {
@@ -150,13 +147,8 @@ void CompositePass::draw_plate_light(const FrameView& view) {
     plate_light_width_ = width, plate_light_height_ = height;
   }
   update_uniforms(view, {}, false);
-  reset_state();
-  glBindFramebuffer(GL_FRAMEBUFFER, plate_light_framebuffer_.id());
-  glViewport(0, 0, width, height);
-  glUseProgram(plate_light_program_.id());
-  glBindVertexArray(no_attributes_.id());
   glBindTextureUnit(TEXTURE_PLATE, plate_.id());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  draw_.over({0, 0, width, height}, plate_light_framebuffer_.id(), plate_light_program_);
   glGenerateTextureMipmap(plate_light_.id());
 }
 
@@ -171,18 +163,12 @@ void CompositePass::draw(const FrameView& view, const PixelRect& rect, const Vir
     output_ = std::make_unique<ColorTarget<1>>("composite", GL_RGBA32F, width, height);
   drawn_framebuffer_ = with_layers ? layers_->framebuffer() : output_->framebuffer();
   update_uniforms(view, layer, as_light);
-
-  reset_state();
-  glBindFramebuffer(GL_FRAMEBUFFER, drawn_framebuffer_);
-  glViewport(0, 0, rect_.width, rect_.height);
-  glUseProgram(program_.id());
-  glBindVertexArray(no_attributes_.id());
   glBindTextureUnit(TEXTURE_OBJECT, (layer.object ? *layer.object : black_).id());
   glBindTextureUnit(TEXTURE_SHADOW, (layer.shadow ? *layer.shadow : black_).id());
   glBindTextureUnit(TEXTURE_PLATE, plate_.id());
   const GlTexture& glare = layer.pixel_glare ? *layer.pixel_glare : layer.glare ? layer.glare->glare() : black_;
   glBindTextureUnit(TEXTURE_GLARE, glare.id());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  draw_.over({0, 0, rect_.width, rect_.height}, drawn_framebuffer_, program_);
 }
 
 std::vector<float> CompositePass::read() const {

@@ -2,14 +2,15 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
 #include "catchlight/composite.hpp"
 #include "catchlight/pixel_rect.hpp"
 #include "catchlight/plate.hpp"
 #include "catchlight/response.hpp"
 #include "render/frame_view.hpp"
+#include "render/gl/fullscreen.hpp"
 #include "render/gl/render_target.hpp"
+#include "render/gl/shader_library.hpp"
 #include "render/passes/glare/glare_pass.hpp"
 #include "shaders/interface.h"
 
@@ -26,7 +27,7 @@ struct VirtualLayer {
 
 class CompositePass {
  public:
-  explicit CompositePass(const std::string& shader_folder);
+  explicit CompositePass(ShaderLibrary& shaders);
 
   /// Throws Error if the plate is not of its rectangle's size.
   void upload(const Plate& plate);
@@ -53,8 +54,8 @@ class CompositePass {
   void upload_curve(const std::shared_ptr<const ResponseCurve>& curve);
   void update_uniforms(const FrameView& view, const VirtualLayer& layer, bool as_light);
 
-  GlProgram program_, plate_light_program_;
-  GlVertexArray no_attributes_;
+  Program &program_, &plate_light_program_;
+  FullscreenDraw draw_;
   UniformBuffer<shader_interface::CompositeUniforms> uniforms_{"composite"};
   GlTexture plate_, plate_light_, black_;
   GlBuffer response_;

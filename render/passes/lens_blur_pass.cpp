@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "render/camera/lens.hpp"
-#include "render/gl/shader.hpp"
 #include "shaders/interface.h"
 
 namespace catchlight::render {
@@ -17,13 +16,6 @@ constexpr double kInvisible = 1e-5;  ///< of a Gaussian's tail
 glm::dvec2 seen_px(const CameraModel& camera, const LensLimit& limit, const glm::dvec3& point_camera_m) {
   const glm::dvec3 p = distorted(camera, limit, point_camera_m);
   return {camera.fx_px * p.x / p.z + camera.cx_px, camera.fy_px * p.y / p.z + camera.cy_px};
-}
-
-void set_field(const GlProgram& program, GLint location, const MotionField& field, const PixelRect& rect) {
-  const glm::dvec2 at_corner = field.at({rect.x, rect.y});
-  glProgramUniform2f(program.id(), location, static_cast<float>(at_corner.x), static_cast<float>(at_corner.y));
-  const glm::mat2 change(field.change);
-  glProgramUniformMatrix2fv(program.id(), location + 1, 1, GL_FALSE, &change[0][0]);
 }
 
 }  // namespace
@@ -99,19 +91,8 @@ LensBlurPlan plan_lens_blur(const FrameView& view, const glm::dvec3& box_min_m, 
   return plan;
 }
 
-LensBlur::LensBlur(const std::string& shader_folder)
-    : gaussian_(make_program({.vertex = "fullscreen.vert", .fragment = "lens_gaussian.frag", .captured = {}}, shader_folder)),
-      motion_(make_program({.vertex = "fullscreen.vert", .fragment = "lens_motion.frag", .captured = {}}, shader_folder)),
-      no_attributes_(make_vertex_array("no attributes")) {}
-
-void LensBlur::draw(const GlTexture& object, const GlTexture& shadow, const PixelRect& rect) {
-  latest_ = 1 - latest_;
-  glBindFramebuffer(GL_FRAMEBUFFER, targets_[latest_]->framebuffer());
-  glViewport(0, 0, rect.width, rect.height);
-  glBindTextureUnit(TEXTURE_OBJECT, object.id());
-  glBindTextureUnit(TEXTURE_SHADOW, shadow.id());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-}
+LensBlur::LensBlur(ShaderLibrary& shaders)
+    : gaussian_(shaders.program(fullscreen("lens_gaussian.frag"))), motion_(shaders.program(fullscreen("lens_motion.frag"))) {}
 
 void LensBlur::apply(const LensBlurPlan& plan, const GlTexture& object_sharp, const GlTexture& shadow_sharp,
                      const PixelRect& rect) {
@@ -119,30 +100,33 @@ void LensBlur::apply(const LensBlurPlan& plan, const GlTexture& object_sharp, co
   for (auto& target : targets_)
     if (!target || !target->fits(width, height))
       target = std::make_unique<ColorTarget<2>>("lens blur", GL_RGBA32F, width, height);
-  reset_state();
-  glBindVertexArray(no_attributes_.id());
+  const glm::ivec2 size(rect.width, rect.height);
   const GlTexture *from_object = &object_sharp, *from_shadow = &shadow_sharp;
-  const auto pass = [&] {
-    draw(*from_object, *from_shadow, rect);
+  const auto draw = [&](const Program& program) {
+    latest_ = 1 - latest_;
+    glBindTextureUnit(TEXTURE_OBJECT, from_object->id());
+    glBindTextureUnit(TEXTURE_SHADOW, from_shadow->id());
+    draw_.over({0, 0, size.x, size.y}, targets_[latest_]->framebuffer(), program);
     from_object = &object(), from_shadow = &shadow();
   };
   if (plan.variance_px2 > 0) {
     const std::vector<float> weights = discrete_gaussian(plan.variance_px2);
-    glUseProgram(gaussian_.id());
-    glProgramUniform2i(gaussian_.id(), 1, rect.width, rect.height);
-    glProgramUniform1i(gaussian_.id(), 2, static_cast<GLint>(weights.size()));
-    glProgramUniform1fv(gaussian_.id(), 3, static_cast<GLsizei>(weights.size()), weights.data());
-    for (const glm::ivec2 step : {glm::ivec2(1, 0), glm::ivec2(0, 1)}) {
-      glProgramUniform2i(gaussian_.id(), 0, step.x, step.y);
-      pass();
+    gaussian_.set("size", size);
+    gaussian_.set("count", static_cast<int>(weights.size()));
+    gaussian_.set("weights", weights);
+    for (const glm::ivec2 step_px : {glm::ivec2(1, 0), glm::ivec2(0, 1)}) {
+      gaussian_.set("step_px", step_px);
+      draw(gaussian_);
     }
   }
   if (plan.moves) {
-    glUseProgram(motion_.id());
-    glProgramUniform2i(motion_.id(), 0, rect.width, rect.height);
-    set_field(motion_, 1, plan.object, rect);
-    set_field(motion_, 3, plan.shadow, rect);
-    pass();
+    const glm::dvec2 corner(rect.x, rect.y);
+    motion_.set("size", size);
+    motion_.set("object_way", glm::vec2(plan.object.at(corner)));
+    motion_.set("object_change", glm::mat2(plan.object.change));
+    motion_.set("shadow_way", glm::vec2(plan.shadow.at(corner)));
+    motion_.set("shadow_change", glm::mat2(plan.shadow.change));
+    draw(motion_);
   }
 }
 

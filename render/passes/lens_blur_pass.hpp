@@ -4,7 +4,6 @@
 
 #include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "catchlight/camera.hpp"
@@ -12,7 +11,9 @@
 #include "catchlight/rigid_transform.hpp"
 #include "render/camera/lens_view.hpp"
 #include "render/frame_view.hpp"
+#include "render/gl/fullscreen.hpp"
 #include "render/gl/render_target.hpp"
+#include "render/gl/shader_library.hpp"
 
 namespace catchlight::render {
 
@@ -49,7 +50,7 @@ LensBlurPlan plan_lens_blur(const FrameView& view, const glm::dvec3& box_min_m, 
 
 class LensBlur {
  public:
-  explicit LensBlur(const std::string& shader_folder);
+  explicit LensBlur(ShaderLibrary& shaders);
 
   /// Of textures that hold the frame's pixels of `rect`. Beyond it, its outermost pixels go on.
   void apply(const LensBlurPlan& plan, const GlTexture& object, const GlTexture& shadow, const PixelRect& rect);
@@ -58,10 +59,8 @@ class LensBlur {
   const GlTexture& shadow() const { return targets_[latest_]->texture(1); }
 
  private:
-  void draw(const GlTexture& object, const GlTexture& shadow, const PixelRect& rect);
-
-  GlProgram gaussian_, motion_;
-  GlVertexArray no_attributes_;
+  Program &gaussian_, &motion_;
+  FullscreenDraw draw_;
   std::unique_ptr<ColorTarget<2>> targets_[2];  ///< drawn to in turn
   int latest_ = 0;
 };

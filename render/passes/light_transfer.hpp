@@ -14,7 +14,7 @@ namespace catchlight::render {
 /// The program and light that all LitPoints share.
 class LightTransfer {
  public:
-  explicit LightTransfer(const std::string& shader_folder) : capture_("transfer.vert", "transferred", shader_folder) {}
+  explicit LightTransfer(ShaderLibrary& shaders) : capture_("transfer.vert", "transferred", shaders) {}
 
   /// At most MAX_LIGHT_COEFFICIENTS. `split_off` is the part of them whose direct way is left to shadow maps: as many, or none.
   void set_light(const ShRgb& light_linear, const ShRgb& split_off = {});

@@ -5,15 +5,12 @@
 #include <cstdint>
 #include <numeric>
 
-#include "render/gl/shader.hpp"
 #include "render/passes/reflection_texture.hpp"
 #include "render/rays/skip_bvh.hpp"
 #include "shaders/interface.h"
 
 namespace catchlight::render {
 namespace {
-
-constexpr GLint kMaterialLocation = 0;
 
 /// Triangle numbers grouped by material.
 std::vector<std::size_t> triangles_by_material(const Mesh& mesh) {
@@ -32,10 +29,10 @@ void set_attribute(GLuint array, GLuint attribute, GLuint binding, std::size_t o
 }  // namespace
 
 ObjectPass::ObjectPass(const Mesh& mesh, LitPoints vertices_lit, const ReflectionMap& reflections, const ReflectionMap& rest,
-                       const std::string& shader_folder)
-    : program_(make_program({.vertex = "object.vert", .fragment = "object.frag", .captured = {}}, shader_folder)),
+                       ShaderLibrary& shaders)
+    : program_(shaders.program({.vertex = "object.vert", .fragment = "object.frag"})),
       exit_radiance_(std::move(vertices_lit)),
-      direct_light_capture_("direct_light.vert", "direct_light", shader_folder),
+      direct_light_capture_("direct_light.vert", "direct_light", shaders),
       direct_light_(make_buffer("direct light", mesh.vertices.size() * sizeof(glm::vec3), nullptr)),
       vertices_(make_buffer("object vertices", std::span<const Vertex>(mesh.vertices))),
       vertex_array_(make_vertex_array("object")),
@@ -99,7 +96,7 @@ void ObjectPass::light_by(const LightTransfer& light, const ShadowedLights& ligh
   exit_radiance_.evaluate(light);
   if (lights.count() == 0 || !reflects_) return;
   lights.bind();
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_VERTICES, vertices_.id());
+  bind_storage(BINDING_VERTICES, vertices_.id());
   direct_light_capture_.run(direct_light_.id(), 0, exit_radiance_.count());
 }
 
@@ -129,13 +126,14 @@ void ObjectPass::draw(const ObjectTarget& target, const PixelRect& rect, int fra
   glBindTextureUnit(TEXTURE_PROBE, probe_.id());
   glBindTextureUnit(TEXTURE_BRDF, brdf_table_.id());
   glBindTextureUnit(TEXTURE_REST, rest_.id());
-  const GLuint storage[] = {bvh_nodes_.id(),           bvh_triangles_.id(), vertices_.id(),
-                            exit_radiance_.radiance(), materials_.id(),     direct_light_.id()};
-  static_assert(BINDING_BVH_NODES == 0 && BINDING_BVH_TRIANGLES == 1 && BINDING_VERTICES == 2 && BINDING_EXIT_RADIANCE == 3 &&
-                BINDING_MATERIALS == 4 && BINDING_DIRECT_LIGHT == 5);
-  glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, std::size(storage), storage);
+  bind_storage(BINDING_BVH_NODES, bvh_nodes_.id());
+  bind_storage(BINDING_BVH_TRIANGLES, bvh_triangles_.id());
+  bind_storage(BINDING_VERTICES, vertices_.id());
+  bind_storage(BINDING_EXIT_RADIANCE, exit_radiance_.radiance());
+  bind_storage(BINDING_MATERIALS, materials_.id());
+  bind_storage(BINDING_DIRECT_LIGHT, direct_light_.id());
   for (const Batch& batch : batches_) {
-    glUniform1i(kMaterialLocation, batch.material);
+    program_.set("material_index", batch.material);
     const auto offset = static_cast<std::uintptr_t>(batch.first_index) * sizeof(std::uint32_t);
     glDrawElements(GL_TRIANGLES, batch.index_count, GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset));
   }

@@ -2,7 +2,6 @@
 // linear light.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "catchlight/pixel_rect.hpp"
@@ -20,7 +19,7 @@ class ObjectPass {
  public:
   /// `rest`: the reflections less the lights that are split off; not used without any.
   ObjectPass(const Mesh& mesh, LitPoints vertices_lit, const ReflectionMap& reflections, const ReflectionMap& rest,
-             const std::string& shader_folder);
+             ShaderLibrary& shaders);
 
   /// The object's exit radiance under `light`; needed again whenever the light turns. `lights` must be up to date.
   void light_by(const LightTransfer& light, const ShadowedLights& lights);
@@ -47,7 +46,7 @@ class ObjectPass {
   void upload_materials(const Mesh& mesh);
   void upload_hierarchy(const Mesh& mesh);
 
-  GlProgram program_;
+  Program& program_;
   LitPoints exit_radiance_;
   PointCapture direct_light_capture_;
   GlBuffer direct_light_,  ///< irradiance / pi from the lights at each vertex

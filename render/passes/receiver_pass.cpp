@@ -5,8 +5,6 @@
 #include <glm/gtc/constants.hpp>
 #include <limits>
 
-#include "render/gl/shader.hpp"
-
 namespace catchlight::render {
 namespace {
 
@@ -52,12 +50,11 @@ PlaneRect shadow_reach(std::span<const LightSample> samples_tag, const glm::vec3
   return reach;
 }
 
-ReceiverPass::ReceiverPass(const Transfer& transfer, const std::string& shader_folder)
+ReceiverPass::ReceiverPass(const Transfer& transfer, ShaderLibrary& shaders)
     : grid_(transfer.grid),
       unshadowed_(transfer.receiver_unshadowed),
-      program_(make_program({.vertex = "receiver.vert", .fragment = "receiver.frag", .captured = {}}, shader_folder)),
-      lights_program_(
-          make_program({.vertex = "fullscreen.vert", .fragment = "receiver_light.frag", .captured = {}}, shader_folder)),
+      program_(shaders.program({.vertex = "receiver.vert", .fragment = "receiver.frag"})),
+      lights_program_(shaders.program(fullscreen("receiver_light.frag"))),
       no_attributes_(make_vertex_array("no attributes")),
       points_("receiver", transfer.receiver, transfer.receiver_direct, transfer.bands * transfer.bands),
       irradiance_(make_texture_2d("receiver irradiance", GL_RGB32F, grid_.columns, grid_.rows, GL_LINEAR)) {}
@@ -105,14 +102,9 @@ void ReceiverPass::draw_lights(const PlaneRect& rect, const ShadowedLights& ligh
   reach_ = unite(reach_, widened);
   if (!light_ || light_->width() != size.x || light_->height() != size.y)
     light_ = std::make_unique<ColorTarget<1>>("lights on the receiver", GL_RGBA32F, size.x, size.y, GL_LINEAR);
-  reset_state();
-  glBindFramebuffer(GL_FRAMEBUFFER, light_->framebuffer());
-  glViewport(0, 0, size.x, size.y);
-  glUseProgram(lights_program_.id());
-  glBindVertexArray(no_attributes_.id());
   uniforms_.bind(BINDING_RECEIVER);
   lights.bind();
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  draw_.over({0, 0, size.x, size.y}, light_->framebuffer(), lights_program_);
 }
 
 void ReceiverPass::bind() const {

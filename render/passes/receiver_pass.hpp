@@ -3,10 +3,11 @@
 
 #include <memory>
 #include <span>
-#include <string>
 
 #include "catchlight/pixel_rect.hpp"
+#include "render/gl/fullscreen.hpp"
 #include "render/gl/render_target.hpp"
+#include "render/gl/shader_library.hpp"
 #include "render/passes/light_transfer.hpp"
 #include "render/passes/shadowed_lights.hpp"
 #include "render/transfer/transfer.hpp"
@@ -31,7 +32,7 @@ struct TagLight {
 class ReceiverPass {
  public:
   /// `transfer` must have a grid of at least 2 x 2 points.
-  ReceiverPass(const Transfer& transfer, const std::string& shader_folder);
+  ReceiverPass(const Transfer& transfer, ShaderLibrary& shaders);
 
   /// The plane's irradiance under `light`, which `transfer` holds too; needed again whenever the light turns. `lights` casts the
   /// shadows of what lies in the box.
@@ -52,7 +53,8 @@ class ReceiverPass {
 
   ReceiverGrid grid_;
   std::vector<float> unshadowed_;
-  GlProgram program_, lights_program_;
+  Program &program_, &lights_program_;
+  FullscreenDraw draw_;
   GlVertexArray no_attributes_;
   LitPoints points_;
   GlTexture irradiance_;

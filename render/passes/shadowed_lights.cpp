@@ -5,12 +5,10 @@
 #include <cmath>
 
 #include "render/gl/render_target.hpp"
-#include "render/gl/shader.hpp"
 
 namespace catchlight::render {
 namespace {
 
-constexpr GLint kSampleLocation = 0;
 /// Of all maps together: 96 maps of 512 texels, 16 bits each.
 constexpr int kTexelBudget = 96 * 512 * 512;
 constexpr int kMaxTexels = 2048;  ///< along a map's side
@@ -44,11 +42,11 @@ glm::dvec3 any_perpendicular(const glm::dvec3& direction) {
 
 }  // namespace
 
-ShadowedLights::ShadowedLights(int samples, const BoundingSphere& object, const std::string& shader_folder)
+ShadowedLights::ShadowedLights(int samples, const BoundingSphere& object, ShaderLibrary& shaders)
     : count_(samples),
       object_(object),
       map_texels_(samples > 0 ? texels_for(samples) : 1),
-      program_(make_program({.vertex = "shadow_map.vert", .fragment = {}, .captured = {}}, shader_folder)),
+      program_(shaders.program({.vertex = "shadow_map.vert"})),
       maps_(make_maps(map_texels_, std::max(samples, 1))),
       framebuffer_(make_framebuffer("shadow map")) {
   uniforms_.update({});
@@ -83,7 +81,7 @@ void ShadowedLights::update(std::span<const LightSample> samples_tag, const std:
     glNamedFramebufferTextureLayer(framebuffer_.id(), GL_DEPTH_ATTACHMENT, maps_.id(), 0, i);
     const float farthest = 1;
     glClearNamedFramebufferfv(framebuffer_.id(), GL_DEPTH, 0, &farthest);
-    glUniform1i(kSampleLocation, i);
+    program_.set("light_sample", i);
     draw_object();
   }
   glPolygonOffset(0, 0);

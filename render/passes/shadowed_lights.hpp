@@ -4,9 +4,9 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <span>
-#include <string>
 
 #include "render/gl/gl_objects.hpp"
+#include "render/gl/shader_library.hpp"
 #include "render/probe/light_samples.hpp"
 #include "shaders/interface.h"
 
@@ -21,7 +21,7 @@ struct BoundingSphere {
 class ShadowedLights {
  public:
   /// For `samples` of them, at most MAX_LIGHT_SAMPLES; none is possible too.
-  ShadowedLights(int samples, const BoundingSphere& object, const std::string& shader_folder);
+  ShadowedLights(int samples, const BoundingSphere& object, ShaderLibrary& shaders);
 
   /// Takes over the samples (tag frame; as many as said) and draws their maps; `draw_object` draws all triangles with their
   /// positions as ATTRIBUTE_POSITION. Needed again only when the light turns.
@@ -35,7 +35,7 @@ class ShadowedLights {
   int count_;
   BoundingSphere object_;
   int map_texels_;
-  GlProgram program_;
+  Program& program_;
   GlTexture maps_;
   GlFramebuffer framebuffer_;
   UniformBuffer<shader_interface::LightSampleUniforms> uniforms_{"light samples"};

@@ -2,12 +2,13 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "catchlight/plate.hpp"
 #include "catchlight/tone_curve.hpp"
+#include "render/gl/fullscreen.hpp"
 #include "render/gl/render_target.hpp"
+#include "render/gl/shader_library.hpp"
 #include "render/passes/glare/classic_glare.hpp"
 #include "render/settings.hpp"
 #include "render/tone/tone_curve.hpp"
@@ -17,22 +18,22 @@ namespace catchlight::render {
 /// Counts luminances on the GPU. Whole numbers are added, so that the result is the same to the bit whatever the order.
 class ToneMeter {
  public:
-  explicit ToneMeter(const std::string& shader_folder);
+  explicit ToneMeter(ShaderLibrary& shaders);
 
   /// Of the first width x height texels of `light`. A pixel with a NaN counts for nothing, an infinite one as 2^32. Waits for the
   /// GPU.
   LuminanceHistogram measure(const GlTexture& light, int width, int height, const glm::dvec3& luminance_weights);
 
  private:
-  GlProgram program_;
-  GlVertexArray no_attributes_;
+  Program& program_;
+  FullscreenDraw draw_;
   GlBuffer bins_;
   GlFramebuffer nothing_;  ///< no attachments: the shader only counts
 };
 
 class TonePass {
  public:
-  TonePass(const CompositorSettings& settings, const std::string& shader_folder);
+  TonePass(const CompositorSettings& settings, ShaderLibrary& shaders);
 
   /// What the composite (linear light, frame in its first texels) calls for.
   ToneCurve meter(const GlTexture& light, int width, int height, const PlateColor& color);
@@ -51,8 +52,8 @@ class TonePass {
   GlareSettings glare_;
   ToneMeter meter_;
   std::unique_ptr<ClassicLook> classic_;  ///< null: another look, or no glare
-  GlProgram program_;
-  GlVertexArray no_attributes_;
+  Program& program_;
+  FullscreenDraw draw_;
   GlTexture black_;
   std::unique_ptr<ColorTarget<1>> output_;
   int width_ = 0, height_ = 0;

@@ -25,7 +25,8 @@ Glared glared(GlarePass& pass, const Image& picture, const Image* emission) {
 }
 
 Glared glared(const GlareSettings& settings, const Image& picture, const Image* emission) {
-  GlarePass pass(settings, "");
+  ShaderLibrary shaders;
+  GlarePass pass(settings, shaders);
   return glared(pass, picture, emission);
 }
 

@@ -5,7 +5,6 @@
 
 #include "catchlight/image.hpp"
 #include "render/gl/read_back.hpp"
-#include "render/gl/shader.hpp"
 #include "shaders/interface.h"
 
 namespace catchlight::render {
@@ -15,11 +14,10 @@ constexpr std::size_t kReadLevel = 3;
 
 }  // namespace
 
-BloomPass::BloomPass(const std::string& shader_folder)
-    : down_(make_program({.vertex = "fullscreen.vert", .fragment = "glare_down.frag", .captured = {}}, shader_folder)),
-      up_(make_program({.vertex = "fullscreen.vert", .fragment = "glare_up.frag", .captured = {}, .defines = "#define OWN\n"},
-                       shader_folder)),
-      up_to_grid_(make_program({.vertex = "fullscreen.vert", .fragment = "glare_up.frag", .captured = {}}, shader_folder)) {}
+BloomPass::BloomPass(ShaderLibrary& shaders)
+    : down_(shaders.program(fullscreen("glare_down.frag"))),
+      up_(shaders.program(fullscreen("glare_up.frag", {"OWN"}))),
+      up_to_grid_(shaders.program(fullscreen("glare_up.frag"))) {}
 
 void BloomPass::resize(int columns, int rows, double rows_per_height) {
   blurs_ = plan_bloom(rows_per_height);
@@ -45,12 +43,11 @@ PixelRect BloomPass::texels_at(const PixelRect& texels, int level, int around) c
 }
 
 void BloomPass::shrink(const GlTexture& excess, const PixelRect& texels) {
-  glUseProgram(down_.id());
   const GlTexture* source = &excess;
   for (std::size_t k = 0; k < levels_.size(); ++k) {
     clear(levels_[k].shrunk);
     glBindTextureUnit(TEXTURE_SOURCE, source->id());
-    draw_over(levels_[k].shrunk, texels_at(texels, static_cast<int>(k) + 1));
+    draw_.over(texels_at(texels, static_cast<int>(k) + 1), levels_[k].shrunk.framebuffer(), down_);
     source = &levels_[k].shrunk.texture();
   }
 }
@@ -65,19 +62,18 @@ double BloomPass::total() const {
   return std::exp2(2 * level) * std::max({sum.r, sum.g, sum.b});
 }
 
-void BloomPass::glow(int number, double strength, const PixelRect& texels, const GlareBlur& blur) const {
+void BloomPass::glow(int number, double strength, const PixelRect& texels, GlareBlur& blur) {
   const Level& to = level(number);
   const PixelRect reached = texels_at(texels, number);
   double own_gain = 0;
   for (const BloomBlur& step : blurs_) {
     if (step.level == number && step.taps.size() == 1) own_gain += strength * step.weight;
   }
-  glUseProgram(up_.id());
-  glUniform1f(0, static_cast<float>(own_gain));
-  glUniform1f(1, number == coarsest() ? 0.0f : 1.0f);
+  up_.set("own_gain", static_cast<float>(own_gain));
+  up_.set("coarser_gain", number == coarsest() ? 0.0f : 1.0f);
   glBindTextureUnit(TEXTURE_SOURCE, to.shrunk.texture().id());
   glBindTextureUnit(TEXTURE_COARSER, (number == coarsest() ? to.shrunk : level(number + 1).glow).texture().id());
-  draw_over(to.glow, reached);
+  draw_.over(reached, to.glow.framebuffer(), up_);
   for (const BloomBlur& step : blurs_) {
     if (step.level == number && step.taps.size() > 1 && strength > 0)
       blur.add(to.shrunk.texture(), to.scratch, to.glow, step.taps, strength * step.weight, reached);
@@ -85,9 +81,8 @@ void BloomPass::glow(int number, double strength, const PixelRect& texels, const
 }
 
 void BloomPass::gather(const ColorTarget<1>& target, const PixelRect& texels) const {
-  glUseProgram(up_to_grid_.id());
   glBindTextureUnit(TEXTURE_COARSER, level(1).glow.texture().id());
-  draw_over(target, texels);
+  draw_.over(texels, target.framebuffer(), up_to_grid_);
 }
 
 }  // namespace catchlight::render

@@ -1,7 +1,6 @@
 // Bloom: the excess blurred by several Gaussians, each at the resolution that it needs.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "catchlight/pixel_rect.hpp"
@@ -12,7 +11,7 @@ namespace catchlight::render {
 
 class BloomPass {
  public:
-  explicit BloomPass(const std::string& shader_folder);
+  explicit BloomPass(ShaderLibrary& shaders);
 
   /// For a grid of that many texels, margins included.
   void resize(int columns, int rows, double rows_per_height);
@@ -37,13 +36,14 @@ class BloomPass {
 
   /// From the coarsest level to the first: makes its glow, strength times the bloom of this level and the coarser ones. What else
   /// is to glow there is added before the next one is made.
-  void glow(int number, double strength, const PixelRect& texels, const GlareBlur& blur) const;
+  void glow(int number, double strength, const PixelRect& texels, GlareBlur& blur);
 
   /// Then writes it to `target`, of the grid's size, over `texels`.
   void gather(const ColorTarget<1>& target, const PixelRect& texels) const;
 
  private:
-  GlProgram down_, up_, up_to_grid_;
+  Program &down_, &up_, &up_to_grid_;
+  FullscreenDraw draw_;
   std::vector<BloomBlur> blurs_;
   std::vector<Level> levels_;  ///< the first has half of the grid's resolution
 };

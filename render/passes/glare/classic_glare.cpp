@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
-#include "render/gl/shader.hpp"
 #include "shaders/interface.h"
 
 namespace catchlight::render {
@@ -26,23 +25,18 @@ ColorTarget<1> result_target(const char* label, int size) {
   return ColorTarget<1>(label, GL_RGBA32F, size, size, GL_LINEAR);
 }
 
-GlProgram program(const char* fragment, const std::string& folder) {
-  return make_program({.vertex = "fullscreen.vert", .fragment = fragment, .captured = {}}, folder);
-}
-
 }  // namespace
 
 double classic_attenuation(double attenuation_at_480_rows) {
   return std::pow(attenuation_at_480_rows, 480.0 / 128);
 }
 
-ClassicLook::ClassicLook(const std::string& shader_folder)
-    : bright_program_(program("classic_bright.frag", shader_folder)),
-      shrink_(program("classic_shrink.frag", shader_folder)),
-      blur_(program("classic_blur.frag", shader_folder)),
-      sum_(program("classic_sum.frag", shader_folder)),
-      streak_(program("classic_streak.frag", shader_folder)),
-      no_attributes_(make_vertex_array("no attributes")),
+ClassicLook::ClassicLook(ShaderLibrary& shaders)
+    : bright_program_(shaders.program(fullscreen("classic_bright.frag"))),
+      shrink_(shaders.program(fullscreen("classic_shrink.frag"))),
+      blur_(shaders.program(fullscreen("classic_blur.frag"))),
+      sum_(shaders.program(fullscreen("classic_sum.frag"))),
+      streak_(shaders.program(fullscreen("classic_streak.frag"))),
       bright_(square_target("bright 512", 512)),
       bright_256_(square_target("bright 256", 256)),
       bright_128_(square_target("bright 128", 128)),
@@ -57,63 +51,52 @@ ClassicLook::ClassicLook(const std::string& shader_folder)
       streak_pass_{square_target("streak", 128), square_target("streak", 128)},
       streaks_(result_target("classic streaks", 128)) {}
 
-void ClassicLook::draw_over(const ColorTarget<1>& target, const GlTexture& source) const {
-  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
-  glViewport(0, 0, target.width(), target.height());
+void ClassicLook::draw_over(const ColorTarget<1>& target, const GlTexture& source, const Program& program,
+                            Blending blending) const {
   glBindTextureUnit(TEXTURE_SOURCE, source.id());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  draw_.over({0, 0, target.width(), target.height()}, target.framebuffer(), program, blending);
 }
 
 void ClassicLook::draw(const GlTexture& light, int width, int height, double threshold, double attenuation) {
-  reset_state();
-  glBindVertexArray(no_attributes_.id());
-  glUseProgram(bright_program_.id());
-  glProgramUniform2i(bright_program_.id(), 0, width, height);
-  glProgramUniform1f(bright_program_.id(), 1, static_cast<float>(threshold));
-  draw_over(bright_, light);
+  bright_program_.set("size", glm::ivec2(width, height));
+  bright_program_.set("threshold", static_cast<float>(threshold));
+  draw_over(bright_, light, bright_program_);
 
-  glUseProgram(shrink_.id());
-  draw_over(bright_256_, bright_.texture());
-  draw_over(bright_128_, bright_256_.texture());
-  draw_over(bright_64_, bright_128_.texture());
+  draw_over(bright_256_, bright_.texture(), shrink_);
+  draw_over(bright_128_, bright_256_.texture(), shrink_);
+  draw_over(bright_64_, bright_128_.texture(), shrink_);
 
-  glUseProgram(blur_.id());
   blur(bright_, half_done_512_, blurred_512_);
   blur(bright_256_, half_done_256_, blurred_256_);
   blur(bright_64_, half_done_64_, blurred_64_);
-  glUseProgram(sum_.id());
   glBindTextureUnit(TEXTURE_BLOOM, blurred_256_.texture().id());
   glBindTextureUnit(TEXTURE_STREAKS, blurred_64_.texture().id());
-  draw_over(bloom_, blurred_512_.texture());
+  draw_over(bloom_, blurred_512_.texture(), sum_);
 
   draw_streaks(bright_128_.texture(), attenuation);
 }
 
-void ClassicLook::blur(const ColorTarget<1>& source, const ColorTarget<1>& half_done, const ColorTarget<1>& target) const {
-  glProgramUniform2i(blur_.id(), 0, 1, 0);
-  draw_over(half_done, source.texture());
-  glProgramUniform2i(blur_.id(), 0, 0, 1);
-  draw_over(target, half_done.texture());
+void ClassicLook::blur(const ColorTarget<1>& source, const ColorTarget<1>& half_done, const ColorTarget<1>& target) {
+  blur_.set("axis", glm::ivec2(1, 0));
+  draw_over(half_done, source.texture(), blur_);
+  blur_.set("axis", glm::ivec2(0, 1));
+  draw_over(target, half_done.texture(), blur_);
 }
 
-void ClassicLook::draw_streaks(const GlTexture& source, double attenuation) const {
+void ClassicLook::draw_streaks(const GlTexture& source, double attenuation) {
   const float zero[4] = {0, 0, 0, 0};
+  reset_state();
   glClearNamedFramebufferfv(streaks_.framebuffer(), GL_COLOR, 0, zero);
-  glUseProgram(streak_.id());
-  glBlendEquation(GL_FUNC_ADD);
-  glBlendFunc(GL_ONE, GL_ONE);
   for (const glm::ivec2& diagonal : kDiagonals) {
     const GlTexture* from = &source;
     for (int pass = 0; pass < kStreakPasses; ++pass) {
       const bool is_last = pass + 1 == kStreakPasses;
       const int b = 1 << (2 * pass);
       const float scale = is_last ? 1.0f / kDiagonals.size() : 1.0f;
-      glProgramUniform2i(streak_.id(), 0, diagonal.x * b, diagonal.y * b);
-      glProgramUniform2f(streak_.id(), 1, static_cast<float>(std::pow(attenuation, b)), scale);
+      streak_.set("step_texels", diagonal * b);
+      streak_.set("weight", glm::vec2(std::pow(attenuation, b), scale));
       const ColorTarget<1>& target = is_last ? streaks_ : streak_pass_[pass];
-      if (is_last) glEnable(GL_BLEND);
-      draw_over(target, *from);
-      glDisable(GL_BLEND);
+      draw_over(target, *from, streak_, is_last ? Blending::add : Blending::replace);
       from = &target.texture();
     }
   }

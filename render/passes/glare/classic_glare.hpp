@@ -3,9 +3,9 @@
 // docs/auto-exposure.md lists where it departs from that chain.
 #pragma once
 
-#include <string>
-
+#include "render/gl/fullscreen.hpp"
 #include "render/gl/render_target.hpp"
+#include "render/gl/shader_library.hpp"
 
 namespace catchlight::render {
 
@@ -14,7 +14,7 @@ double classic_attenuation(double attenuation_at_480_rows);
 
 class ClassicLook {
  public:
-  explicit ClassicLook(const std::string& shader_folder);
+  explicit ClassicLook(ShaderLibrary& shaders);
 
   /// Of the picture in the first width x height texels of `light` (linear). Luminance over `threshold`, which keeps its colour.
   void draw(const GlTexture& light, int width, int height, double threshold, double attenuation);
@@ -27,12 +27,13 @@ class ClassicLook {
   const GlTexture& bright() const { return bright_.texture(); }
 
  private:
-  void draw_over(const ColorTarget<1>& target, const GlTexture& source) const;
-  void blur(const ColorTarget<1>& source, const ColorTarget<1>& half_done, const ColorTarget<1>& target) const;
-  void draw_streaks(const GlTexture& source, double attenuation) const;
+  void draw_over(const ColorTarget<1>& target, const GlTexture& source, const Program& program,
+                 Blending blending = Blending::replace) const;
+  void blur(const ColorTarget<1>& source, const ColorTarget<1>& half_done, const ColorTarget<1>& target);
+  void draw_streaks(const GlTexture& source, double attenuation);
 
-  GlProgram bright_program_, shrink_, blur_, sum_, streak_;
-  GlVertexArray no_attributes_;
+  Program &bright_program_, &shrink_, &blur_, &sum_, &streak_;
+  FullscreenDraw draw_;
   ColorTarget<1> bright_, bright_256_, bright_128_, bright_64_;
   ColorTarget<1> half_done_512_, half_done_256_, half_done_64_, blurred_512_, blurred_256_, blurred_64_, bloom_;
   ColorTarget<1> streak_pass_[2], streaks_;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "render/gl/read_back.hpp"
-#include "render/gl/shader.hpp"
 #include "shaders/interface.h"
 
 namespace catchlight::render {
@@ -21,22 +20,16 @@ PixelRect around(const std::vector<PixelRect>& rectangles) {
   return all;
 }
 
-GlProgram fragment_program(const char* name, const std::string& folder) {
-  return make_program({.vertex = "fullscreen.vert", .fragment = name, .captured = {}}, folder);
-}
-
 }  // namespace
 
-GlarePass::GlarePass(const GlareSettings& settings, const std::string& shader_folder)
+GlarePass::GlarePass(const GlareSettings& settings, ShaderLibrary& shaders)
     : settings_(settings),
-      filter_rows_("glare_filter.frag", shader_folder, "#define AXIS 0\n"),
-      filter_rows_with_emission_("glare_filter.frag", shader_folder, "#define AXIS 0\n#define EMISSION\n"),
-      filter_columns_("glare_filter.frag", shader_folder, "#define AXIS 1\n"),
-      bright_(fragment_program("glare_bright.frag", shader_folder)),
-      tiles_(shader_folder),
-      blur_(shader_folder),
-      bloom_(shader_folder),
-      streaks_(shader_folder),
+      shaders_(shaders),
+      bright_(shaders.program(fullscreen("glare_bright.frag"))),
+      tiles_(shaders),
+      blur_(shaders),
+      bloom_(shaders),
+      streaks_(shaders),
       any_bright_(make_query(GL_ANY_SAMPLES_PASSED)) {}
 
 void GlarePass::make_targets(int frame_width, int frame_height) {
@@ -56,20 +49,21 @@ void GlarePass::make_targets(int frame_width, int frame_height) {
   narrow_.reset();
 }
 
-/// Pixel `first_pixel` of the frame is the first of `source_size` along the filter's axis.
-void GlarePass::use_filter(const TapPrograms& programs, int first_pixel, int source_size) const {
-  const GLuint program = programs.with(static_cast<int>(std::floor(4 * grid_.texel_px)) + 1);
-  glUseProgram(program);
-  glProgramUniform1i(program, 1, first_pixel);
-  glProgramUniform1i(program, 2, source_size);
-  glProgramUniform1f(program, 3, static_cast<float>(grid_.texel_px));
+const Program& GlarePass::axis_filter(std::vector<std::string> defines, int first_pixel, int source_size) {
+  const int taps = static_cast<int>(std::floor(4 * grid_.texel_px)) + 1;
+  Program& program = shaders_.program(fullscreen_with_taps("glare_filter.frag", taps, std::move(defines)));
+  program.set("first_pixel", first_pixel);
+  program.set("source_size", source_size);
+  program.set("texel_px", static_cast<float>(grid_.texel_px));
+  return program;
 }
 
 /// The object's light on the grid: first along the pixels' rows, then down the columns.
 void GlarePass::filter(const GlTexture& object, const GlTexture* emission, const PixelRect& rect) {
   if (!filtered_rows_ || filtered_rows_->width() != grid_.columns || filtered_rows_->height() < rect.height)
     filtered_rows_ = std::make_unique<ColorTarget<1>>(make_glare_target("rows to glare", grid_.columns, roomy(rect.height)));
-  use_filter(emission ? filter_rows_with_emission_ : filter_rows_, rect.x, rect.width);
+  std::vector<std::string> along_rows{"AXIS 0"};
+  if (emission) along_rows.emplace_back("EMISSION");
   glBindTextureUnit(TEXTURE_SOURCE, object.id());
   glBindTextureUnit(TEXTURE_EMISSION, (emission ? *emission : object).id());
   std::vector<PixelRect> pixels;
@@ -77,10 +71,9 @@ void GlarePass::filter(const GlTexture& object, const GlTexture* emission, const
     const PixelRect rows = grid_.pixels(texels);
     pixels.push_back(intersect({texels.x, rows.y - rect.y, texels.width, rows.height}, {0, 0, grid_.columns, rect.height}));
   }
-  rectangles_.draw(*filtered_rows_, pixels);
-  use_filter(filter_columns_, rect.y, rect.height);
+  draw_.over(pixels, *filtered_rows_, axis_filter(along_rows, rect.x, rect.width));
   glBindTextureUnit(TEXTURE_SOURCE, filtered_rows_->texture().id());
-  rectangles_.draw(*light_, tiles_.grown(kLightReach, kLightReach));
+  draw_.over(tiles_.grown(kLightReach, kLightReach), *light_, axis_filter({"AXIS 1"}, rect.y, rect.height));
 }
 
 /// The excess comes in two parts beside its sum, ready for their own streaks.
@@ -100,21 +93,18 @@ void GlarePass::attach_parts() {
 bool GlarePass::extract(const GlTexture& object, const GlTexture* emission, const PixelRect& rect, int frame_width,
                         int frame_height) {
   if (!glow_ || frame_width != frame_width_ || frame_height != frame_height_) make_targets(frame_width, frame_height);
-  reset_state();
-  glBindVertexArray(rectangles_.vertex_array().id());
   const float threshold = std::max(static_cast<float>(settings_.threshold), 1e-6f);
   if (!tiles_.find(object, rect, grid_, threshold)) return false;
   filter(object, emission, rect);
   divided_ = emission && settings_.emitter_directions != 0;
   if (divided_) attach_parts();
   clear(*excess_);
-  glUseProgram(bright_.id());
-  glProgramUniform1f(bright_.id(), 0, threshold);
-  glProgramUniform1f(bright_.id(), 1, static_cast<float>(settings_.brightest));
-  glProgramUniform1f(bright_.id(), 2, static_cast<float>(settings_.emitter_strength));
+  bright_.set("threshold", threshold);
+  bright_.set("brightest", static_cast<float>(settings_.brightest));
+  bright_.set("emitter_strength", static_cast<float>(settings_.emitter_strength));
   glBindTextureUnit(TEXTURE_SOURCE, light_->texture().id());
   glBeginQuery(GL_ANY_SAMPLES_PASSED, any_bright_.id());
-  rectangles_.draw(*excess_, tiles_.grown(kExcessReach, kExcessReach));
+  draw_.over(tiles_.grown(kExcessReach, kExcessReach), *excess_, bright_);
   glEndQuery(GL_ANY_SAMPLES_PASSED);
   GLuint any = 0;
   glGetQueryObjectuiv(any_bright_.id(), GL_QUERY_RESULT, &any);
@@ -122,8 +112,6 @@ bool GlarePass::extract(const GlTexture& object, const GlTexture* emission, cons
 }
 
 PixelRect GlarePass::spread() {
-  reset_state();
-  glBindVertexArray(rectangles_.vertex_array().id());
   const PixelRect all = all_texels(), light = intersect(around(tiles_.grown(kExcessReach, kExcessReach)), all);
   bloom_.shrink(excess_->texture(), light);
   const double rows_per_height = grid_.rows_per_height(frame_height_);
@@ -151,11 +139,8 @@ void GlarePass::add_narrow_bloom() {
     const double weight = settings_.bloom_strength * each.weight;
     const int reach = kExcessReach + static_cast<int>(each.taps.size()) - 1;
     clear(*scratch_);
-    blur_.use(excess_->texture(), 0, each.taps, weight);
-    rectangles_.draw(*scratch_, tiles_.grown(reach, kExcessReach));
-    blur_.use(scratch_->texture(), 1, each.taps, weight);
-    const AdditiveBlending blending;
-    rectangles_.draw(*glow_, tiles_.grown(reach, reach));
+    draw_.over(tiles_.grown(reach, kExcessReach), *scratch_, blur_.axis(excess_->texture(), 0, each.taps, weight));
+    draw_.over(tiles_.grown(reach, reach), *glow_, blur_.axis(scratch_->texture(), 1, each.taps, weight), Blending::add);
   }
 }
 

@@ -7,7 +7,8 @@
 
 #include "catchlight/image.hpp"
 #include "catchlight/pixel_rect.hpp"
-#include "render/gl/tap_programs.hpp"
+#include "render/gl/fullscreen.hpp"
+#include "render/gl/shader_library.hpp"
 #include "render/glare/glare_plan.hpp"
 #include "render/passes/glare/bloom.hpp"
 #include "render/passes/glare/glare_tiles.hpp"
@@ -18,7 +19,7 @@ namespace catchlight::render {
 
 class GlarePass {
  public:
-  GlarePass(const GlareSettings& settings, const std::string& shader_folder);
+  GlarePass(const GlareSettings& settings, ShaderLibrary& shaders);
 
   /// Extracts what is over the threshold of `object` (which holds the frame's pixels of `rect`). `emission`: the object's own
   /// light among it, in the same pixels; null where it glares as the rest. False, and nothing else to do, where nothing is.
@@ -41,7 +42,8 @@ class GlarePass {
  private:
   void make_targets(int frame_width, int frame_height);
   void filter(const GlTexture& object, const GlTexture* emission, const PixelRect& rect);
-  void use_filter(const TapPrograms& programs, int first_pixel, int source_size) const;
+  /// A filter along one axis, ready to be drawn: pixel `first_pixel` of the frame is the first of `source_size` along it.
+  const Program& axis_filter(std::vector<std::string> defines, int first_pixel, int source_size);
   void attach_parts();
   PixelRect all_texels() const { return {0, 0, grid_.columns, grid_.rows}; }
   void add_narrow_bloom();
@@ -49,10 +51,10 @@ class GlarePass {
   void add_star(const GlTexture& source, int directions, const StreakGrid& on, double reach_texels, const PixelRect& texels);
 
   GlareSettings settings_;
-  TapPrograms filter_rows_, filter_rows_with_emission_, filter_columns_;
-  GlProgram bright_;
+  ShaderLibrary& shaders_;
+  Program& bright_;
+  FullscreenDraw draw_;
   GlareTiles tiles_;
-  RectangleArray rectangles_;
   GlareBlur blur_;
   BloomPass bloom_;
   StreakPass streaks_;

@@ -14,22 +14,22 @@ int tiles_in(int texels) {
 
 }  // namespace
 
-GlareTiles::GlareTiles(const std::string& shader_folder) : programs_("glare_tiles.frag", shader_folder) {}
-
 bool GlareTiles::find(const GlTexture& object, const PixelRect& rect, const GlareGrid& grid, float threshold) {
   const int columns = tiles_in(grid.columns), rows = tiles_in(grid.rows);
   if (!found_ || found_->width() != columns || found_->height() != rows)
     found_ = std::make_unique<ColorTarget<1>>("bright tiles", GL_R8, columns, rows);
   clear(*found_);
-  glUseProgram(programs_.with(static_cast<int>(std::ceil(GLARE_TILE * grid.texel_px))));
-  glUniform2i(0, rect.x, rect.y);
-  glUniform2i(1, rect.width, rect.height);
-  glUniform1f(2, static_cast<float>(grid.texel_px));
-  glUniform1f(3, threshold);
+  const int pixels_along_tile = static_cast<int>(std::ceil(GLARE_TILE * grid.texel_px));
+  Program& program = shaders_.program(fullscreen_with_taps("glare_tiles.frag", pixels_along_tile));
+  program.set("first_pixel", glm::ivec2(rect.x, rect.y));
+  program.set("source_size", glm::ivec2(rect.width, rect.height));
+  program.set("texel_px", static_cast<float>(grid.texel_px));
+  program.set("threshold", threshold);
   glBindTextureUnit(TEXTURE_SOURCE, object.id());
   const PixelRect texels = grid.texels(rect, 0);
   const int x = texels.x / GLARE_TILE, y = texels.y / GLARE_TILE;
-  draw_over(*found_, {x, y, tiles_in(texels.x + texels.width) - x, tiles_in(texels.y + texels.height) - y});
+  draw_.over({x, y, tiles_in(texels.x + texels.width) - x, tiles_in(texels.y + texels.height) - y}, found_->framebuffer(),
+             program);
   bright_ = {columns, rows, std::vector<std::uint8_t>(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows))};
   glBindFramebuffer(GL_READ_FRAMEBUFFER, found_->framebuffer());
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);

@@ -3,11 +3,11 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "catchlight/pixel_rect.hpp"
-#include "render/gl/tap_programs.hpp"
+#include "render/gl/fullscreen.hpp"
+#include "render/gl/shader_library.hpp"
 #include "render/glare/glare_plan.hpp"
 #include "render/glare/tile_mask.hpp"
 #include "render/passes/glare/glare_target.hpp"
@@ -16,7 +16,7 @@ namespace catchlight::render {
 
 class GlareTiles {
  public:
-  explicit GlareTiles(const std::string& shader_folder);
+  explicit GlareTiles(ShaderLibrary& shaders) : shaders_(shaders) {}
 
   /// Finds the tiles under which a pixel of `object` (which holds the frame's pixels of `rect`) is above `threshold` in any
   /// channel; false where there are none. Waits for the GPU.
@@ -27,7 +27,8 @@ class GlareTiles {
   std::vector<PixelRect> grown(int across, int down) const;
 
  private:
-  TapPrograms programs_;
+  ShaderLibrary& shaders_;
+  FullscreenDraw draw_;
   std::unique_ptr<ColorTarget<1>> found_;
   TileMask bright_;
 };

@@ -28,22 +28,20 @@ PixelRect lowered(PixelRect rect, int texels) {
 
 }  // namespace
 
-StreakPass::StreakPass(const std::string& shader_folder)
-    : straight_("glare_streak.frag", shader_folder), slanted_("glare_streak.frag", shader_folder, "#define SLANTED\n") {}
-
-void StreakPass::use(const GlTexture& source, const StreakSamples& samples, int down, const PixelRect& bounds) const {
+const Program& StreakPass::pass(const GlTexture& source, const StreakSamples& samples, int down, const PixelRect& bounds) {
   const glm::vec2 pace(samples.pace);
   const bool along_x = std::abs(pace.x) >= std::abs(pace.y);
-  const TapPrograms& programs = pace == glm::floor(pace) ? straight_ : slanted_;
-  glUseProgram(programs.with(samples.count));
-  glUniform2f(0, 0, static_cast<float>(down));
-  glUniform2f(1, pace.x, pace.y);
-  glUniform2i(2, along_x ? 0 : 1, along_x ? 1 : 0);
-  glUniform3f(3, static_cast<float>(samples.gain.r), static_cast<float>(samples.gain.g), static_cast<float>(samples.gain.b));
-  glUniform3f(4, static_cast<float>(samples.falloff.r), static_cast<float>(samples.falloff.g),
-              static_cast<float>(samples.falloff.b));
-  glUniform4i(5, bounds.x, bounds.y, bounds.x + bounds.width - 1, bounds.y + bounds.height - 1);
+  std::vector<std::string> defines;
+  if (pace != glm::floor(pace)) defines = {"SLANTED"};
+  Program& program = shaders_.program(fullscreen_with_taps("glare_streak.frag", samples.count, defines));
+  program.set("offset", glm::vec2(0, down));
+  program.set("pace", pace);
+  program.set("across", along_x ? glm::ivec2(0, 1) : glm::ivec2(1, 0));
+  program.set("gain", glm::vec3(samples.gain));
+  program.set("falloff", glm::vec3(samples.falloff));
+  program.set("bounds", glm::ivec4(bounds.x, bounds.y, bounds.x + bounds.width - 1, bounds.y + bounds.height - 1));
   glBindTextureUnit(TEXTURE_SOURCE, source.id());
+  return program;
 }
 
 void StreakPass::add(const GlTexture& source, const PixelRect& light, std::span<const std::vector<StreakSamples>> arms,
@@ -66,14 +64,12 @@ void StreakPass::add_some(const GlTexture& source, const PixelRect& light, std::
     const GlTexture& from = p == 0 ? source : between_[(p - 1) % 2].texture();
     for (std::size_t a = 0; a < arms.size(); ++a) {
       const int band = height * static_cast<int>(a), from_band = p == 0 ? 0 : band, to_band = p == last ? 0 : band;
-      use(from, arms[a][p], from_band - to_band, lowered(lit[a], from_band));
+      const Program& program = pass(from, arms[a][p], from_band - to_band, lowered(lit[a], from_band));
       lit[a] = swept(lit[a], arms[a][p], target);
-      if (p < last) {
-        draw_over(between_[p % 2], lowered(lit[a], to_band));
-      } else {
-        const AdditiveBlending blending;
-        draw_over(target, intersect(lit[a], texels));
-      }
+      if (p < last)
+        draw_.over(lowered(lit[a], to_band), between_[p % 2].framebuffer(), program);
+      else
+        draw_.over(intersect(lit[a], texels), target.framebuffer(), program, Blending::add);
     }
   }
 }

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <vector>
 
 #include "catchlight/pixel_rect.hpp"
-#include "render/gl/tap_programs.hpp"
+#include "render/gl/fullscreen.hpp"
+#include "render/gl/shader_library.hpp"
 #include "render/glare/glare_plan.hpp"
 #include "render/passes/glare/glare_target.hpp"
 
@@ -14,7 +14,7 @@ namespace catchlight::render {
 
 class StreakPass {
  public:
-  explicit StreakPass(const std::string& shader_folder);
+  explicit StreakPass(ShaderLibrary& shaders) : shaders_(shaders) {}
 
   /// Adds to `target`, over `texels`, the sum over `arms` of what their passes make of `source`: one pass after the
   /// other. All arms have as many passes. The source, of the target's size, is black
@@ -25,11 +25,12 @@ class StreakPass {
  private:
   void add_some(const GlTexture& source, const PixelRect& light, std::span<const std::vector<StreakSamples>> arms,
                 const ColorTarget<1>& target, const PixelRect& texels);
-  /// Makes a pass the current program. `down`: how far below the target's texels the source's lie; `bounds`: outside of these
-  /// texels of its the source counts as black.
-  void use(const GlTexture& source, const StreakSamples& samples, int down, const PixelRect& bounds) const;
+  /// One pass of one arm, ready to be drawn. `down`: how far below the target's texels the source's lie; `bounds`: outside of
+  /// these texels of its the source counts as black.
+  const Program& pass(const GlTexture& source, const StreakSamples& samples, int down, const PixelRect& bounds);
 
-  TapPrograms straight_, slanted_;
+  ShaderLibrary& shaders_;
+  FullscreenDraw draw_;
   /// What one pass leaves to the next: a band for each arm, one below the other, so that a pass draws them without a pause.
   std::vector<ColorTarget<1>> between_;
 };

@@ -2,7 +2,9 @@
 #include "catchlight/error.hpp"
 #include "embedded/embedded_shaders.hpp"
 #include "render/compositor.hpp"
-#include "render/gl/shader.hpp"
+#include "render/gl/fullscreen.hpp"
+#include "render/gl/gl_context.hpp"
+#include "render/gl/shader_library.hpp"
 #include "render/settings.hpp"
 #include "shaders/interface.h"
 #include "tests/support/gl_fixture.hpp"
@@ -19,7 +21,10 @@ namespace catchlight::render::test {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::ThrowsMessage;
 
 class ShaderGl : public GlTest {};
@@ -30,7 +35,7 @@ struct Member {
 };
 
 /// Compares with what GL reports of the block's members that the program uses; the others cannot be asked for.
-void expect_layout(const GlProgram& program, const std::string& block, std::size_t size, const std::vector<Member>& members) {
+void expect_layout(const Program& program, const std::string& block, std::size_t size, const std::vector<Member>& members) {
   const GLuint block_index = glGetProgramResourceIndex(program.id(), GL_UNIFORM_BLOCK, block.c_str());
   ASSERT_NE(block_index, GL_INVALID_INDEX) << block;
   const GLenum size_property = GL_BUFFER_DATA_SIZE, offset_property = GL_OFFSET;
@@ -52,20 +57,21 @@ void expect_layout(const GlProgram& program, const std::string& block, std::size
 
 TEST_F(ShaderGl, UniformBlocksLieAsCppLaysThem) {
   using namespace shader_interface;
-  const GlProgram object = make_program({.vertex = "object.vert", .fragment = "object.frag", .captured = {}}, "");
+  ShaderLibrary shaders;
+  const Program& object = shaders.program({.vertex = "object.vert", .fragment = "object.frag"});
   expect_layout(object, "ViewUniforms", sizeof(ViewUniforms),
                 {MEMBER(ViewUniforms, clip_from_camera), MEMBER(ViewUniforms, camera_from_tag),
                  MEMBER(ViewUniforms, light_from_tag), MEMBER(ViewUniforms, plate_from_rec709),
                  MEMBER(ViewUniforms, camera_in_tag_m), MEMBER(ViewUniforms, exposure), MEMBER(ViewUniforms, radial_numerator),
                  MEMBER(ViewUniforms, radial_denominator), MEMBER(ViewUniforms, tangential), MEMBER(ViewUniforms, lens_limit)});
-  const GlProgram transfer = make_program({.vertex = "transfer.vert", .fragment = {}, .captured = {"transferred"}}, "");
+  const Program& transfer = shaders.program({.vertex = "transfer.vert", .captured = "transferred"});
   expect_layout(transfer, "LightUniforms", sizeof(LightUniforms),
                 {MEMBER(LightUniforms, count), {"coefficients[0]", offsetof(LightUniforms, coefficients)}});
-  const GlProgram receiver = make_program({.vertex = "receiver.vert", .fragment = "receiver.frag", .captured = {}}, "");
+  const Program& receiver = shaders.program({.vertex = "receiver.vert", .fragment = "receiver.frag"});
   expect_layout(
       receiver, "ReceiverUniforms", sizeof(ReceiverUniforms),
       {MEMBER(ReceiverUniforms, min_max_m), MEMBER(ReceiverUniforms, one_over_unshadowed), MEMBER(ReceiverUniforms, points)});
-  const GlProgram composite = make_program({.vertex = "fullscreen.vert", .fragment = "composite.frag", .captured = {}}, "");
+  const Program& composite = shaders.program(fullscreen("composite.frag"));
   expect_layout(
       composite, "CompositeUniforms", sizeof(CompositeUniforms),
       {MEMBER(CompositeUniforms, output_rect), MEMBER(CompositeUniforms, virtual_rect), MEMBER(CompositeUniforms, modes),
@@ -81,30 +87,129 @@ class ShaderFolder {
   }
   ~ShaderFolder() { std::filesystem::remove_all(path_); }
   void write(const std::string& name, const std::string& text) const { std::ofstream(path_ / name) << text; }
+  /// Every `from` of the embedded file.
+  void replace_in(const std::string& name, const std::string& from, const std::string& to) const {
+    std::string text = embedded_shaders().at(name);
+    ASSERT_NE(text.find(from), std::string::npos) << from;
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) text.replace(at, from.size(), to);
+    write(name, text);
+  }
   std::string path() const { return path_.string(); }
 
  private:
   std::filesystem::path path_ = std::filesystem::temp_directory_path() / ("catchlight_shaders_" + std::to_string(getpid()));
 };
 
-TEST_F(ShaderGl, AFolderReplacesTheEmbeddedFiles) {
-  ShaderFolder folder;
-  std::string text = embedded_shaders().at("composite.frag");
-  const std::string codes = "vec4(new_code, changed";
-  text.replace(text.find(codes), codes.size(), "vec4(vec3(0.25), changed");
-  folder.write("composite.frag", text);
+CompositorSettings with_shaders_from(const ShaderFolder& folder) {
   CompositorSettings settings;
   settings.shader_folder = folder.path();
-  Compositor compositor(constant_scene(sphere(0.05, {0, 0, 0}), Material{}, glm::vec3(1)), settings);
-  EXPECT_EQ(pixel_at(compositor.render(view_from_above(), plate_u8(200)), 80, 60).x, 0.25f);
+  return settings;
+}
+
+RenderScene white_ball() {
+  return constant_scene(sphere(0.05, {0, 0, 0}), Material{}, glm::vec3(1));
+}
+
+float red_in_the_middle(Compositor& compositor) {
+  return pixel_at(compositor.render(view_from_above(), plate_u8(200)), 80, 60).x;
+}
+
+TEST_F(ShaderGl, AFolderReplacesTheEmbeddedFiles) {
+  ShaderFolder folder;
+  folder.replace_in("composite.frag", "vec4(new_code, changed", "vec4(vec3(0.25), changed");
+  Compositor compositor(white_ball(), with_shaders_from(folder));
+  EXPECT_EQ(red_in_the_middle(compositor), 0.25f);
+}
+
+TEST_F(ShaderGl, ReloadTakesUpWhatWasEditedAndKeepsWhatDoesNotCompile) {
+  ShaderFolder folder;
+  Compositor compositor(white_ball(), with_shaders_from(folder));
+  const float as_shipped = red_in_the_middle(compositor);
+  EXPECT_THAT(compositor.reload_shaders(), IsEmpty()) << "nothing was edited";
+  EXPECT_EQ(red_in_the_middle(compositor), as_shipped);
+
+  folder.replace_in("composite.frag", "vec4(new_code, changed", "vec4(vec3(0.25), changed");
+  EXPECT_THAT(compositor.reload_shaders(), IsEmpty());
+  EXPECT_EQ(red_in_the_middle(compositor), 0.25f);
+
+  folder.write("lens_noise.glsl", "\n\nvec3 missing_noise() { return nonsense; }\n");
+  EXPECT_THAT(compositor.reload_shaders(),
+              ElementsAre(AllOf(HasSubstr("composite.frag"), HasSubstr(folder.path() + "/lens_noise.glsl:3"))));
+  EXPECT_EQ(red_in_the_middle(compositor), 0.25f) << "the last one that compiled draws on";
+
+  std::filesystem::remove(folder.path() + "/lens_noise.glsl");
+  EXPECT_THAT(compositor.reload_shaders(), ElementsAre(HasSubstr("lens_noise.glsl: cannot be read")));
+
+  folder.write("lens_noise.glsl", embedded_shaders().at("lens_noise.glsl"));
+  folder.write("composite.frag", embedded_shaders().at("composite.frag"));
+  EXPECT_THAT(compositor.reload_shaders(), IsEmpty());
+  EXPECT_EQ(red_in_the_middle(compositor), as_shipped);
+}
+
+TEST_F(ShaderGl, ReloadLightsAnewWhatIsLitOnce) {
+  ShaderFolder folder;
+  Material white;
+  white.base_color = glm::vec3(1);
+  white.dielectric_f0 = 0;
+  Compositor compositor(constant_scene(sphere(0.05, {0, 0, 0}), white, glm::vec3(0.5f)), with_shaders_from(folder));
+  EXPECT_GT(red_in_the_middle(compositor), 0.5f);
+  folder.replace_in("transfer.vert", "transferred = mix(", "transferred = 0.0 * mix(");
+  EXPECT_THAT(compositor.reload_shaders(), IsEmpty());
+  EXPECT_EQ(red_in_the_middle(compositor), 0.0f);
+}
+
+TEST_F(ShaderGl, AProgramIsCompiledOnceAndStaysGood) {
+  ShaderFolder folder;
+  ShaderLibrary shaders(folder.path());
+  Program& up = shaders.program(fullscreen("glare_up.frag"));
+  const GLuint as_shipped = up.id();
+  EXPECT_EQ(&shaders.program(fullscreen("glare_up.frag")), &up);
+  EXPECT_NE(&shaders.program(fullscreen("glare_up.frag", {"OWN"})), &up);
+  EXPECT_THAT(shaders.reload(), IsEmpty());
+  EXPECT_EQ(up.id(), as_shipped) << "unchanged files are not compiled again";
+  folder.replace_in("bspline.glsl", "vec3 bspline(", "// edited\nvec3 bspline(");
+  EXPECT_THAT(shaders.reload(), IsEmpty());
+  EXPECT_NE(up.id(), as_shipped);
+  EXPECT_EQ(&shaders.program(fullscreen("glare_up.frag")), &up);
+}
+
+TEST_F(ShaderGl, UniformsAreSetByName) {
+  ShaderFolder folder;
+  ShaderLibrary shaders(folder.path());
+  Program& up = shaders.program(fullscreen("glare_up.frag", {"OWN"}));
+  up.set("own_gain", 0.75f);
+  const auto own_gain = [&] {
+    float value = 0;
+    glGetUniformfv(up.id(), glGetUniformLocation(up.id(), "own_gain"), &value);
+    return value;
+  };
+  EXPECT_EQ(own_gain(), 0.75f);
+  EXPECT_THAT([&] { up.set("own_gian", 1.0f); }, ThrowsMessage<Error>(AllOf(HasSubstr("glare_up.frag"), HasSubstr("own_gian"))));
+  // Without OWN nothing reads it and the compiler drops it.
+  EXPECT_NO_THROW(shaders.program(fullscreen("glare_up.frag")).set("own_gain", 1.0f));
+  up.set("own_gain", 3);
+  EXPECT_THAT([] { check_gl("a test"); }, ThrowsMessage<Error>(HasSubstr("a test"))) << "an integer for a float";
+
+  // A program that lost what its pass sets is as broken as one that does not compile.
+  folder.replace_in("glare_up.frag", "own_gain", "gain_of_own");
+  EXPECT_THAT(shaders.reload(), Contains(HasSubstr("own_gain")));
+  EXPECT_EQ(own_gain(), 0.75f);
 }
 
 TEST_F(ShaderGl, AnErrorNamesFileAndLineAlsoWithinAnInclude) {
   ShaderFolder folder;
   folder.write("lens.glsl", "vec4 clip_from_tag(vec3 p) {\n  return nonsense;\n}\n");
+  ShaderLibrary shaders(folder.path());
   EXPECT_THAT(
-      [&] { make_program({.vertex = "object.vert", .fragment = "object.frag", .captured = {}}, folder.path()); },
-      ThrowsMessage<Error>(AllOf(HasSubstr("object.vert"), HasSubstr("2 = lens.glsl"), HasSubstr("2:2"), HasSubstr("nonsense"))));
+      [&] { shaders.program({.vertex = "object.vert", .fragment = "object.frag"}); },
+      ThrowsMessage<Error>(AllOf(HasSubstr("object.vert"), HasSubstr(folder.path() + "/lens.glsl:2"), HasSubstr("nonsense"))));
+}
+
+TEST(ShaderLog, NamesFilesAsEachDriverCountsThem) {
+  const ShaderText text{"", {"a.frag", "interface.h", "lens.glsl"}};
+  EXPECT_EQ(with_file_names("2:23(9): error: oh", text), "lens.glsl:23(9): error: oh\n");
+  EXPECT_EQ(with_file_names("ERROR: 1:7: 'x' : oh", text), "interface.h:7: 'x' : oh\n");
+  EXPECT_EQ(with_file_names("0(12) : error C1008: oh\nand more", text), "a.frag:12 : error C1008: oh\nand more\n");
 }
 
 TEST_F(ShaderGl, AMissingFileIsNamed) {
@@ -120,8 +225,8 @@ TEST_F(ShaderGl, StagesThatDoNotFitAreReported) {
   folder.write("fullscreen.vert", "#version 450 core\nvoid main() { gl_Position = vec4(0); }\n");
   folder.write("bad.frag",
                "#version 450 core\nin vec3 never_written;\nout vec4 c;\nvoid main() { c = vec4(never_written, 1); }\n");
-  EXPECT_THAT([&] { make_program({.vertex = "fullscreen.vert", .fragment = "bad.frag", .captured = {}}, folder.path()); },
-              ThrowsMessage<Error>(HasSubstr("fullscreen.vert + bad.frag")));
+  ShaderLibrary shaders(folder.path());
+  EXPECT_THAT([&] { shaders.program(fullscreen("bad.frag")); }, ThrowsMessage<Error>(HasSubstr("fullscreen.vert + bad.frag")));
 }
 
 TEST_F(ShaderGl, EveryShaderPassesTheReferenceCompiler) {

@@ -54,7 +54,8 @@ void set(Image& image, int x, int y, const glm::vec3& light) {
 }
 
 LuminanceHistogram metered(const Image& image) {
-  return ToneMeter("").measure(texture_of(image), image.width, image.height, kLuminanceWeights);
+  ShaderLibrary shaders;
+  return ToneMeter(shaders).measure(texture_of(image), image.width, image.height, kLuminanceWeights);
 }
 
 double pixels_in(const LuminanceHistogram& histogram) {

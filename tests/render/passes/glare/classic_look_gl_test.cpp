@@ -119,7 +119,8 @@ struct Highlights {
 
 TEST_F(ClassicLookGl, BloomIsThreeGaussiansLaidOverEachOther) {
   const Highlights scene;
-  ClassicLook look("");
+  ShaderLibrary shaders;
+  ClassicLook look(shaders);
   look.draw(texture_of(scene.image), 512, 512, 1, kAttenuation);
   const Image bloom = read(look.bloom(), 512);
   for (const glm::ivec2& at :
@@ -131,7 +132,8 @@ TEST_F(ClassicLookGl, BloomIsThreeGaussiansLaidOverEachOther) {
 
 TEST_F(ClassicLookGl, StreaksFallAsAPowerAlongTheDiagonals) {
   const Highlights scene;
-  ClassicLook look("");
+  ShaderLibrary shaders;
+  ClassicLook look(shaders);
   look.draw(texture_of(scene.image), 512, 512, 1, kAttenuation);
   const Image streaks = read(look.streaks(), 128);
   for (int y = 0; y < 128; ++y) {
@@ -147,7 +149,8 @@ TEST_F(ClassicLookGl, BrightPartsAreMeansOverTheirTexel) {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> light(0, 8);
   for (float& value : image.data) value = light(random);
-  ClassicLook look("");
+  ShaderLibrary shaders;
+  ClassicLook look(shaders);
   look.draw(texture_of(image), 641, 479, 1, kAttenuation);
   const Image bright = read(look.bright(), 512);
   for (const glm::ivec2& texel : {glm::ivec2{0, 0}, {511, 511}, {100, 317}, {511, 0}}) {
@@ -168,7 +171,8 @@ TEST_F(ClassicLookGl, BrightPartsAreMeansOverTheirTexel) {
 }
 
 TEST_F(ClassicLookGl, AMovingHighlightKeepsItsEnergy) {
-  ClassicLook look("");
+  ShaderLibrary shaders;
+  ClassicLook look(shaders);
   double first = 0;
   for (int x = 200; x < 210; ++x) {
     Image image(1920, 1080);
@@ -183,7 +187,8 @@ TEST_F(ClassicLookGl, AMovingHighlightKeepsItsEnergy) {
 TEST_F(ClassicLookGl, NothingOverTheThresholdGivesNothing) {
   Image image(64, 48);
   std::fill(image.data.begin(), image.data.end(), 1.0f);
-  ClassicLook look("");
+  ShaderLibrary shaders;
+  ClassicLook look(shaders);
   look.draw(texture_of(image), 64, 48, 1, kAttenuation);
   EXPECT_EQ(sum_of(read(look.bloom(), 512)), 0);
   EXPECT_EQ(sum_of(read(look.streaks(), 128)), 0);
@@ -193,7 +198,8 @@ TEST_F(ClassicLookGl, NanAndInfinityStayInTheirPlace) {
   for (const float light : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     Image image(64, 48);
     set(image, 10, 10, glm::vec3(light));
-    ClassicLook look("");
+    ShaderLibrary shaders;
+    ClassicLook look(shaders);
     look.draw(texture_of(image), 64, 48, 1, kAttenuation);
     EXPECT_TRUE(std::isfinite(sum_of(read(look.bloom(), 512))));
     EXPECT_TRUE(std::isfinite(sum_of(read(look.streaks(), 128))));

@@ -22,15 +22,13 @@ constexpr int kSize = 301, kMiddle = 150;
 
 /// What the passes of one direction make of a single texel of light.
 Image streak_of_a_point(const glm::dvec2& direction, double log_per_texel, int passes, float light) {
-  StreakPass pass("");
+  ShaderLibrary shaders;
+  StreakPass pass(shaders);
   const ColorTarget<1> source = make_glare_target("point", kSize, kSize), target = make_glare_target("streak", kSize, kSize);
   clear(source);
   clear(target);
   const float texel[4] = {light, light, light, 1};
   glTextureSubImage2D(source.texture().id(), 0, kMiddle, kMiddle, 1, 1, GL_RGBA, GL_FLOAT, texel);
-  const GlVertexArray no_attributes = make_vertex_array("no attributes");
-  reset_state();
-  glBindVertexArray(no_attributes.id());
   const std::array arms{streak_passes(direction, glm::dvec3(log_per_texel), passes, glm::dvec3(1))};
   pass.add(source.texture(), {kMiddle, kMiddle, 1, 1}, arms, target, {0, 0, kSize, kSize});
   return read_back(target.framebuffer(), 0, kSize, kSize, 3);
@@ -70,7 +68,8 @@ struct Range {
 };
 
 TEST_F(GlarePassesGl, AOnePixelHighlightKeepsItsEnergyWhileItMovesByAPixel) {
-  GlarePass pass(GlareSettings{}, "");
+  ShaderLibrary shaders;
+  GlarePass pass(GlareSettings{}, shaders);
   for (const float radiance : {30.0f, 100.0f, 1000.0f, 1e5f}) {
     for (const glm::dvec2 direction : {glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(1, 1)}) {
       Range energy;
@@ -122,7 +121,8 @@ TEST_F(GlarePassesGl, WhichTexelsAreDrawnTogetherDoesNotShow) {
   GlareSettings settings;
   settings.brightest = 2;
   settings.grid_rows = 120;
-  GlarePass pass(settings, "");
+  ShaderLibrary shaders;
+  GlarePass pass(settings, shaders);
   const Image here = glared(pass, specks(320, 240, 0)).excess;
   for (const int texels : {1, 2, 3}) {
     const Image there = glared(pass, specks(320, 240, 2 * texels)).excess;
