@@ -86,6 +86,14 @@ void add_recording_options(CLI::App& command, std::string& location, RecordingOv
   }
 }
 
+void add_shader_option(CLI::App& command, RecordingOverrides& overrides) {
+  command
+      .add_option("--shader-dir", overrides.shader_folder,
+                  "Draw with the shaders of this folder, an edited copy of the source's shaders/, instead of the built-in ones")
+      ->type_name("FOLDER")
+      ->group("For those who work on shaders");
+}
+
 int run_command_line(std::span<const Command> commands, int argc, const char* const* argv) {
   Context context;
   CLI::App app{kDescription, "catchlight"};

@@ -40,6 +40,9 @@ void set_up_track(CLI::App& command, Context& context);
 /// The positional RECORDING, --scene, --camera, --fov, and one option for every parameter. Both must live as long as `command`.
 void add_recording_options(CLI::App& command, std::string& location, RecordingOverrides& overrides);
 
+/// Adds --shader-dir, for commands that draw.
+void add_shader_option(CLI::App& command, RecordingOverrides& overrides);
+
 /// Runs the command that the arguments name. Exit code 0, 2 for a command line that cannot be carried out, 1 for anything else;
 /// an error is one message on stderr.
 int run_command_line(std::span<const Command> commands, int argc, const char* const* argv);

@@ -6,6 +6,7 @@
 #include "app/settings/look.hpp"
 #include "app/settings/parameters.hpp"
 #include "app/settings/scene_file.hpp"
+#include "render/gl/shader_text.hpp"
 #include "tracking/camera/camera_file.hpp"
 
 namespace catchlight::app {
@@ -107,6 +108,8 @@ void choose_scene(Recording& recording, const RecordingOverrides& overrides) {
   // A look that is an option goes before what the scene file sets, as options do.
   apply_look(recording.scene, options.contains("look") ? options : recording.scene.by_hand);
   recording.scene.probe.strict = overrides.strict;
+  if (!overrides.shader_folder.empty()) render::check_shader_folder(overrides.shader_folder);
+  recording.scene.shader_folder = overrides.shader_folder;
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ struct RecordingOverrides {
   std::optional<std::string> scene_file, camera_file;
   std::optional<double> fov_deg;                                ///< horizontal, instead of a camera file
   bool strict = false;                                          ///< refuse a probe with bad texels
+  std::string shader_folder;                                    ///< instead of the embedded shaders; empty: those
   std::vector<std::pair<std::string, std::string>> parameters;  ///< key and text, in the order given
 };
 

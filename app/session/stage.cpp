@@ -47,6 +47,7 @@ Stage build_stage(const SceneSettings& scene, Log& log, Report& report) {
   settings.tone = tone_settings(scene);
   settings.samples = scene.quality.samples;
   settings.reflection_rays = scene.quality.reflection_rays;
+  settings.shader_folder = scene.shader_folder;
   stage.compositor = std::make_unique<render::Compositor>(stage.built.scene, settings);
   return stage;
 }

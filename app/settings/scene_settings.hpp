@@ -95,6 +95,7 @@ struct SceneSettings {
   } quality;
 
   std::string folder;             ///< paths of files above that are relative start here; empty: the working folder
+  std::string shader_folder;      ///< instead of the embedded shaders; the command line's --shader-dir, not a key of the file
   std::set<std::string> by_hand;  ///< keys that the scene file or the command line gave
 
   bool is_by_hand(const std::string& key) const { return by_hand.contains(key); }

@@ -1,6 +1,7 @@
 #include "render/gl/shader_text.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <regex>
 #include <sstream>
@@ -72,6 +73,12 @@ ShaderText shader_text(const std::string& name, const std::string& folder, const
   append_file(result, name, folder);
   insert_defines(result.text, defines);
   return result;
+}
+
+void check_shader_folder(const std::string& folder) {
+  if (!std::filesystem::is_directory(folder))
+    throw Error("--shader-dir: there is no folder " + folder + "; expected a copy of shaders/, to be edited");
+  for (const auto& [name, text] : embedded_shaders()) read_shader_file(name, folder);
 }
 
 std::string with_file_names(std::string_view log, const ShaderText& text) {

@@ -19,6 +19,9 @@ struct ShaderText {
 /// that is missing.
 ShaderText shader_text(const std::string& name, const std::string& folder, const std::vector<std::string>& defines = {});
 
+/// Throws Error where `folder` does not hold all files of shaders/.
+void check_shader_folder(const std::string& folder);
+
 /// A driver's log with the files' names in place of their numbers: "lens.glsl:23" for "2:23".
 std::string with_file_names(std::string_view log, const ShaderText& text);
 

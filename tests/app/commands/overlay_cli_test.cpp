@@ -17,6 +17,32 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
+TEST_F(OverlayCommand, DrawsWithTheShadersOfAnotherFolder) {
+  const std::string copy = copied_recording(1), shaders = folder_.path("shaders");
+  fs::copy(CATCHLIGHT_SOURCE_DIR "/shaders", shaders);
+  const auto drawn = [&](const std::string& output, std::vector<std::string> more) {
+    const CommandResult result = overlay(copy, folder_.path(output), std::move(more));
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+    return read_text(folder_.path(output));
+  };
+  const std::string built_in = drawn("built_in.mkv", {});
+  EXPECT_EQ(drawn("same.mkv", {"--shader-dir", shaders}), built_in);
+  replace_in(shaders + "/composite.frag", "vec4(new_code, changed", "vec4(vec3(0.25), changed");
+  EXPECT_NE(drawn("edited.mkv", {"--shader-dir", shaders}), built_in);
+
+  replace_in(shaders + "/composite.frag", "void main() {", "void main() {\n  nonsense;");
+  const CommandResult broken = overlay(copy, out_, {"--shader-dir", shaders});
+  expect_refused(broken, out_, {shaders + "/composite.frag:", "nonsense"});
+}
+
+TEST_F(OverlayCommand, RefusesAFolderWithoutAllShaders) {
+  const std::string copy = copied_recording(1), shaders = folder_.path("shaders");
+  expect_refused(overlay(copy, out_, {"--shader-dir", shaders}), out_, {"--shader-dir", shaders, "no folder"});
+  fs::copy(CATCHLIGHT_SOURCE_DIR "/shaders", shaders);
+  fs::remove(shaders + "/tone.frag");
+  expect_refused(overlay(copy, out_, {"--shader-dir", shaders}), out_, {shaders + "/tone.frag: cannot be read", "--shader-dir"});
+}
+
 // --- what it does -----------------------------------------------------------------------------------------------------
 
 TEST_F(OverlayCommand, TwoRunsGiveTheSameBytes) {
