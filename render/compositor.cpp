@@ -8,6 +8,7 @@
 #include "catchlight/pixel_rect.hpp"
 #include "catchlight/tone_curve.hpp"
 #include "render/camera/lens.hpp"
+#include "render/frame_plan.hpp"
 #include "render/gl/gl_context.hpp"
 #include "render/gl/pass_clock.hpp"
 #include "render/gl/shader_library.hpp"
@@ -21,6 +22,7 @@
 #include "render/passes/object_pass.hpp"
 #include "render/passes/receiver_pass.hpp"
 #include "render/passes/shadowed_lights.hpp"
+#include "render/passes/split_light.hpp"
 #include "render/passes/tone_pass.hpp"
 #include "render/probe/light_samples.hpp"
 #include "render/scene_check.hpp"
@@ -28,8 +30,7 @@
 namespace catchlight::render {
 namespace {
 
-constexpr double kNear_m = 1e-3;
-/// Of the object's diagonal: how far a smoothed surface may lie from its triangles.
+/// How far a smoothed surface may lie from its triangles, in shares of the object's diagonal.
 constexpr float kSkinShare = 0.01f;
 
 struct Box {
@@ -51,19 +52,6 @@ BoundingSphere sphere_around(const Box& box) {
   return {glm::vec3(box.min_m + box.max_m) * 0.5f, static_cast<float>(0.5 * glm::distance(box.min_m, box.max_m))};
 }
 
-TagLight light_of(const RenderScene& scene) {
-  TagLight light{scene.light, {}, scene.lights};
-  if (!scene.lights.empty()) light.split_off = project_to_sh(scene.lights, scene.transfer.bands);
-  return light;
-}
-
-TagLight turned(const TagLight& light, const glm::dmat3& rotation) {
-  TagLight result{rotate_sh(light.whole, rotation), {}, light.samples};
-  if (!light.split_off.empty()) result.split_off = rotate_sh(light.split_off, rotation);
-  for (LightSample& sample : result.samples) sample.direction = rotation * sample.direction;
-  return result;
-}
-
 int supported_samples(int wanted) {
   GLint limit = 1;
   glGetIntegerv(GL_MAX_SAMPLES, &limit);
@@ -76,18 +64,31 @@ struct Compositor::Impl {
   Impl(const RenderScene& scene, const CompositorSettings& wanted);
 
   Composite render(const FrameView& view, const PlateReader& plate, bool want_layers, bool want_picture);
-  void apply_tone(const FrameView& view, bool want_picture, Composite& result);
+  SceneNeeds needs() const;
   void relight(const glm::dmat3& tag_from_light);
-  void update_view(const FrameView& view);
-  PixelRect reach(const FrameView& view) const;
-  bool mirrors_receiver(const FrameView& view) const;
+  void update_view(const FrameView& view, const FramePlan& plan);
   void upload_plate(const PlateReader& plate, const PixelRect& rect);
-  void make_targets(const PixelRect& rect, bool want_layers);
+  void make_targets(const FramePlan& plan);
   bool divides_glare() const;
-  bool draw_virtual_layer(const FrameView& view, const PixelRect& rect, const LensBlurPlan& blur);
+  void draw_virtual_layer(const FramePlan& plan, Composite& result);
+  void draw_object(const FramePlan& plan);
+  void draw_receiver(const FramePlan& plan);
+  bool find_highlights(const FramePlan& plan);
+  PixelRect spread_glare(const CameraModel& camera);
+  void draw_composite(const FrameView& view, const FramePlan& plan, const Composite& result);
+  void meter_frame(const FrameView& view, const FramePlan& plan, Composite& result);
+  void apply_tone(const FrameView& view, const FramePlan& plan, Composite& result);
+  void read_layers(const FramePlan& plan, Layers& layers);
+
+  /// Does a named pass: the name is that of its timer and of its GL debug group.
+  template <typename Work>
+  void pass(const char* name, const Work& work) {
+    const auto scope = clock.pass(name);
+    work();
+  }
 
   CompositorSettings settings;
-  TagLight light_probe;  ///< as the probe's frame has it
+  SplitLight light_probe;  ///< as the probe's frame has it
   glm::vec3 probe_in_tag_m;
   Box box;
   PassClock clock;
@@ -111,7 +112,7 @@ struct Compositor::Impl {
 
 Compositor::Impl::Impl(const RenderScene& scene, const CompositorSettings& wanted)
     : settings(wanted),
-      light_probe(light_of(checked(scene))),
+      light_probe(split_light(checked(scene))),
       probe_in_tag_m(scene.probe_in_tag_m),
       box(bounding_box(scene.mesh)),
       shaders(wanted.shader_folder),
@@ -131,11 +132,19 @@ Compositor::Impl::Impl(const RenderScene& scene, const CompositorSettings& wante
   check_gl("the compositor's start");
 }
 
+SceneNeeds Compositor::Impl::needs() const {
+  SceneNeeds result;
+  result.object_min_m = box.min_m, result.object_max_m = box.max_m;
+  if (receiver) result.shadow_reach = receiver->reach();
+  result.mirrors = settings.reflection_rays > 0 && object.reflects();
+  result.has_glare = settings.glare.enabled;
+  result.recodes_frames = tone != nullptr;
+  return result;
+}
+
 /// The light turns against the object only where the probe is fixed to the camera.
 void Compositor::Impl::relight(const glm::dmat3& tag_from_light) {
-  if (lit_from == tag_from_light) return;
-  const auto pass = clock.pass("light");
-  const TagLight light_tag = tag_from_light == glm::dmat3(1.0) ? light_probe : turned(light_probe, tag_from_light);
+  const SplitLight light_tag = tag_from_light == glm::dmat3(1.0) ? light_probe : turned(light_probe, tag_from_light);
   light.set_light(light_tag.whole, light_tag.split_off);
   lights.update(light_tag.samples, [this] { object.draw_geometry(); });
   object.light_by(light, lights);
@@ -143,7 +152,7 @@ void Compositor::Impl::relight(const glm::dmat3& tag_from_light) {
   lit_from = tag_from_light;
 }
 
-void Compositor::Impl::update_view(const FrameView& view) {
+void Compositor::Impl::update_view(const FrameView& view, const FramePlan& plan) {
   const auto& [k1, k2, p1, p2, k3, k4, k5, k6] = view.camera.distortion;
   const LensLimit limit = lens_limit(view.camera);
   glm::dmat4 camera_from_tag(view.camera_from_tag.rotation);
@@ -161,32 +170,15 @@ void Compositor::Impl::update_view(const FrameView& view) {
   block.lens_limit = glm::vec4(limit.radius, limit.distorted, limit.slope, 0);
   block.frame = glm::vec4(view.camera.width_px, view.camera.height_px, view.camera.fx_px, 0);
   block.probe_in_tag_m = glm::vec4(probe_in_tag_m, kSkinShare * static_cast<float>(glm::distance(box.min_m, box.max_m)));
-  block.options = {settings.reflection_rays, mirrors_receiver(view) ? 1 : 0, 0, 0};
+  block.options = {settings.reflection_rays, plan.mirrors_receiver ? 1 : 0, 0, 0};
   view_uniforms.update(block);
   view_uniforms.bind(BINDING_VIEW);
 }
 
-/// Pixels that object or shadow may touch.
-PixelRect Compositor::Impl::reach(const FrameView& view) const {
-  PixelRect rect;
-  if (box.min_m.x <= box.max_m.x) rect = visible_rect(view.camera, view.camera_from_tag, box.min_m, box.max_m, kNear_m);
-  const bool sees_front = inverse(view.camera_from_tag).translation_m.z > 0;
-  if (receiver && sees_front) {
-    const glm::dvec3 min_m(receiver->reach().min_m, 0.0), max_m(receiver->reach().max_m, 0.0);
-    rect = unite(rect, visible_rect(view.camera, view.camera_from_tag, min_m, max_m, kNear_m));
-  }
-  return rect;
-}
-
-/// A mirror shows the receiver where the camera does.
-bool Compositor::Impl::mirrors_receiver(const FrameView& view) const {
-  return settings.reflection_rays > 0 && receiver && object.reflects() && inverse(view.camera_from_tag).translation_m.z > 0;
-}
-
-void Compositor::Impl::make_targets(const PixelRect& rect, bool want_layers) {
-  const int width = roomy(rect.width), height = roomy(rect.height);
-  if (!object_target || !object_target->fits(width, height, want_layers)) {
-    object_target = std::make_unique<ObjectTarget>(width, height, settings.samples, want_layers, divides_glare());
+void Compositor::Impl::make_targets(const FramePlan& plan) {
+  const int width = roomy(plan.virtual_rect.width), height = roomy(plan.virtual_rect.height);
+  if (!object_target || !object_target->fits(width, height, plan.makes_layers)) {
+    object_target = std::make_unique<ObjectTarget>(width, height, settings.samples, plan.makes_layers, divides_glare());
   }
   if (!shadow_target || !shadow_target->fits(width, height))
     shadow_target = std::make_unique<ColorTarget<1>>("shadow", GL_RGBA32F, width, height);
@@ -199,112 +191,99 @@ bool Compositor::Impl::divides_glare() const {
          (g.emitter_strength != 1 || (g.emitter_directions != 0 && g.emitter_directions != g.streak_directions));
 }
 
-/// Object, shadow and what glares of them. True if anything does.
-bool Compositor::Impl::draw_virtual_layer(const FrameView& view, const PixelRect& rect, const LensBlurPlan& blur) {
-  const int width = view.camera.width_px, height = view.camera.height_px;
-  {
-    const auto pass = clock.pass("object");
-    if (receiver) receiver->bind();
-    lights.bind();
-    glBindTextureUnit(TEXTURE_PLATE_LIGHT, composite.plate_light().id());
-    object.draw(*object_target, rect, width, height);
-  }
-  {
-    const auto pass = clock.pass("receiver");
-    const float no_shadow[4] = {1, 1, 1, 1};
-    glDisable(GL_SCISSOR_TEST);
-    glClearNamedFramebufferfv(shadow_target->framebuffer(), GL_COLOR, 0, no_shadow);
-    if (receiver && inverse(view.camera_from_tag).translation_m.z > 0) receiver->draw(*shadow_target, rect, width, height);
-  }
+void Compositor::Impl::draw_object(const FramePlan& plan) {
+  if (receiver) receiver->bind();
+  lights.bind();
+  glBindTextureUnit(TEXTURE_PLATE_LIGHT, composite.plate_light().id());
+  object.draw(*object_target, plan.virtual_rect, plan.frame.width, plan.frame.height);
+}
+
+void Compositor::Impl::draw_receiver(const FramePlan& plan) {
+  const float no_shadow[4] = {1, 1, 1, 1};
+  reset_state();
+  glClearNamedFramebufferfv(shadow_target->framebuffer(), GL_COLOR, 0, no_shadow);
+  if (plan.draws_receiver) receiver->draw(*shadow_target, plan.virtual_rect, plan.frame.width, plan.frame.height);
+}
+
+bool Compositor::Impl::find_highlights(const FramePlan& plan) {
+  const PixelRect& rect = plan.virtual_rect;
+  if (aperture_glare) return aperture_glare->extract(*object_seen, rect, plan.frame.width, plan.frame.height);
+  const GlTexture* emission = divides_glare() ? &object_target->emission() : nullptr;
+  return glare.extract(*object_seen, emission, rect, plan.frame.width, plan.frame.height);
+}
+
+PixelRect Compositor::Impl::spread_glare(const CameraModel& camera) {
+  return aperture_glare ? aperture_glare->spread(camera) : glare.spread();
+}
+
+/// Object and shadow as the lens shows them, and whether they have highlights that glare.
+void Compositor::Impl::draw_virtual_layer(const FramePlan& plan, Composite& result) {
+  make_targets(plan);
+  pass("object", [&] { draw_object(plan); });
+  pass("receiver", [&] { draw_receiver(plan); });
   object_seen = &object_target->color(), shadow_seen = &shadow_target->texture();
-  if (!blur.empty()) {
-    const auto pass = clock.pass("lens blur");
-    lens_blur.apply(blur, *object_seen, *shadow_seen, rect);
+  if (!plan.blur.empty()) {
+    pass("lens blur", [&] { lens_blur.apply(plan.blur, *object_seen, *shadow_seen, plan.virtual_rect); });
     object_seen = &lens_blur.object(), shadow_seen = &lens_blur.shadow();
   }
-  if (!settings.glare.enabled) return false;
-  const auto pass = clock.pass("highlights");
-  if (aperture_glare) return aperture_glare->extract(*object_seen, rect, width, height);
-  const GlTexture* emission = divides_glare() ? &object_target->emission() : nullptr;
-  return glare.extract(*object_seen, emission, rect, width, height);
+  if (plan.seeks_glare) pass("highlights", [&] { result.glare_drawn = find_highlights(plan); });
 }
 
 void Compositor::Impl::upload_plate(const PlateReader& plate, const PixelRect& rect) {
-  const auto pass = clock.pass("plate");
   const Plate result = plate(rect);
   if (result.rect != rect) throw Error("the plate reader gave another rectangle than it was asked for");
   composite.upload(result);
 }
 
+void Compositor::Impl::draw_composite(const FrameView& view, const FramePlan& plan, const Composite& result) {
+  VirtualLayer layer{plan.virtual_rect, object_seen, shadow_seen, nullptr};
+  if (result.glare_drawn) layer.glare = &glare;
+  if (result.glare_drawn && aperture_glare) layer.pixel_glare = &aperture_glare->glare();
+  composite.draw(view, result.rect, layer, plan.makes_layers, plan.is_toned);
+}
+
+void Compositor::Impl::meter_frame(const FrameView& view, const FramePlan& plan, Composite& result) {
+  result.tone_wanted = tone->meter(composite.drawn(), plan.frame.width, plan.frame.height, view.color);
+}
+
 /// The whole frame, drawn as linear light, becomes codes.
-void Compositor::Impl::apply_tone(const FrameView& view, bool want_picture, Composite& result) {
-  const int width = view.camera.width_px, height = view.camera.height_px;
-  {
-    const auto pass = clock.pass("meter");
-    result.tone_wanted = tone->meter(composite.drawn(), width, height, view.color);
-  }
-  if (!want_picture) return;
-  const auto pass = clock.pass("tone");
+void Compositor::Impl::apply_tone(const FrameView& view, const FramePlan& plan, Composite& result) {
+  const int width = plan.frame.width, height = plan.frame.height;
   tone->draw_glare(composite.drawn(), width, height);
   tone->draw(composite.drawn(), width, height, view.color, view.tone.value_or(result.tone_wanted));
   result.rgba = tone->read();
+}
+
+void Compositor::Impl::read_layers(const FramePlan& plan, Layers& layers) {
+  composite.read_layers(layers);
+  read_object_layers(object_target.get(), plan.virtual_rect, plan.frame, layers);
 }
 
 Composite Compositor::Impl::render(const FrameView& view, const PlateReader& plate, bool want_layers, bool want_picture) {
   check_view(view);
   clock.begin_frame();
   times.clear();
-  const PixelRect whole{0, 0, view.camera.width_px, view.camera.height_px};
-  const bool is_toned = tone && !want_layers;
-  if (view.has_pose) relight(view.tag_from_light);
-  PixelRect virtual_rect = view.has_pose ? reach(view) : PixelRect{};
+  if (view.has_pose && lit_from != view.tag_from_light) pass("light", [&] { relight(view.tag_from_light); });
+  const FramePlan plan = plan_frame(view, needs(), want_layers);
   Composite result;
-  if (virtual_rect.empty() && !want_layers && !is_toned) return result;
-
-  bool glares = false, has_whole_plate = false;
-  PixelRect output_rect = virtual_rect;
-  if (!virtual_rect.empty()) {
-    const LensBlurPlan blur = plan_lens_blur(view, box.min_m, box.max_m);
-    const int r = blur.reach_px(virtual_rect);
-    virtual_rect =
-        intersect({virtual_rect.x - r, virtual_rect.y - r, virtual_rect.width + 2 * r, virtual_rect.height + 2 * r}, whole);
-    output_rect = virtual_rect;
-    update_view(view);
-    if (mirrors_receiver(view)) {
-      upload_plate(plate, whole);
-      const auto pass = clock.pass("plate light");
-      composite.draw_plate_light(view);
-      has_whole_plate = true;
-    }
-    make_targets(virtual_rect, want_layers);
-    glares = draw_virtual_layer(view, virtual_rect, blur);
-    if (glares) {
-      const auto pass = clock.pass("glare");
-      result.glare_rect = aperture_glare ? aperture_glare->spread(view.camera) : glare.spread();
-      output_rect = unite(virtual_rect, result.glare_rect);
-    }
+  if (plan.empty()) return result;
+  if (plan.draws_virtual()) update_view(view, plan);
+  if (plan.mirrors_receiver) {
+    pass("plate", [&] { upload_plate(plate, plan.frame); });
+    pass("plate light", [&] { composite.draw_plate_light(view); });
   }
-  if (want_layers || is_toned) output_rect = whole;
-
-  if (!has_whole_plate) upload_plate(plate, output_rect);
-  {
-    const auto pass = clock.pass("composite");
-    composite.draw(view, output_rect,
-                   {virtual_rect, object_seen, shadow_seen, glares ? &glare : nullptr,
-                    glares && aperture_glare ? &aperture_glare->glare() : nullptr},
-                   want_layers, is_toned);
-  }
-  result.rect = output_rect;
-  if (is_toned)
-    apply_tone(view, want_picture, result);
-  else
+  if (plan.draws_virtual()) draw_virtual_layer(plan, result);
+  if (result.glare_drawn) pass("glare", [&] { result.glare_rect = spread_glare(view.camera); });
+  result.rect = plan.output_rect(result.glare_rect);
+  if (!plan.mirrors_receiver) pass("plate", [&] { upload_plate(plate, result.rect); });
+  pass("composite", [&] { draw_composite(view, plan, result); });
+  if (plan.is_toned) {
+    pass("meter", [&] { meter_frame(view, plan, result); });
+    if (want_picture) pass("tone", [&] { apply_tone(view, plan, result); });
+  } else {
     result.rgba = composite.read();
-  result.glare_drawn = glares;
-  if (want_layers) {
-    Layers& layers = result.layers.emplace();
-    composite.read_layers(layers);
-    read_object_layers(object_target.get(), virtual_rect, whole, layers);
   }
+  if (plan.makes_layers) read_layers(plan, result.layers.emplace());
   check_gl("a frame");
   times = clock.times();
   return result;

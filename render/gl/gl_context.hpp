@@ -20,7 +20,7 @@ struct GlInfo {
 /// Installs a debug callback that turns high-severity messages into an Error at the next check_gl().
 std::unique_ptr<GlContext> make_headless_context();
 
-/// Of the current context.
+/// The current context says what it is.
 GlInfo gl_info();
 
 /// Makes high-severity messages of the current context wait for check_gl(). Headless contexts have it from the start.

@@ -53,7 +53,7 @@ class Program {
   ProgramSource source_;
   std::vector<ShaderText> texts_;
   GlProgram program_;
-  Locations locations_;  ///< of all uniforms that were ever set
+  Locations locations_;  ///< all uniforms that were ever set
 };
 
 }  // namespace catchlight::render

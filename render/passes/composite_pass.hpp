@@ -39,7 +39,7 @@ class CompositePass {
   /// Over `rect`, which the uploaded plate holds. `as_light`: linear instead of codes, for the tone curve to go on from.
   void draw(const FrameView& view, const PixelRect& rect, const VirtualLayer& layer, bool with_layers, bool as_light = false);
 
-  /// Of the last draw without layers: `rect` in the first texels.
+  /// What was last drawn without layers: `rect` in the first texels.
   const GlTexture& drawn() const { return output_->texture(); }
 
   /// Codes and change flags, RGBA.

@@ -1,58 +1,21 @@
-// Defocus and motion blur of the virtual layer: of the object, premultiplied, and of the shadow's ratio, as the lens and the
-// shutter blur the light. A sharp view costs nothing.
+// Draws the blur of the virtual layer: of the object, premultiplied, and of the shadow's ratio.
 #pragma once
 
 #include <memory>
-#include <span>
-#include <vector>
 
-#include "catchlight/camera.hpp"
 #include "catchlight/pixel_rect.hpp"
-#include "catchlight/rigid_transform.hpp"
-#include "render/camera/lens_view.hpp"
-#include "render/frame_view.hpp"
+#include "render/camera/lens_blur.hpp"
 #include "render/gl/fullscreen.hpp"
 #include "render/gl/render_target.hpp"
 #include "render/gl/shader_library.hpp"
 
 namespace catchlight::render {
 
-/// Where what is seen at a pixel moves while the shutter is open: displacement + change * (pixel - origin). Pixels.
-struct MotionField {
-  glm::dvec2 origin_px{0.0}, displacement_px{0.0};
-  glm::dmat2 change{0.0};
-
-  glm::dvec2 at(const glm::dvec2& pixel) const { return displacement_px + change * (pixel - origin_px); }
-};
-
-/// By least squares over points fixed to the tag, seen through the camera's lens; none moves where fewer than three are in view.
-MotionField fit_motion(const CameraModel& camera, const RigidTransform& camera_from_tag, const LensMotion& motion,
-                       std::span<const glm::dvec3> points_tag_m);
-
-/// e^-t I_n(t) for n = 0, 1, ...: the Gaussian of samples, whose variance is exactly t and which applied twice is that of 2 t
-/// (Lindeberg 1990, "Scale-space for discrete signals"). Ends where it is invisible; with its mirror it sums to 1.
-std::vector<float> discrete_gaussian(double variance);
-
-inline constexpr double kMaxDefocus_px2 = 400, kMaxMotion_px = 120;
-
-struct LensBlurPlan {
-  double variance_px2 = 0;
-  MotionField object, shadow;
-  bool moves = false;
-
-  bool empty() const { return variance_px2 == 0 && !moves; }
-  int reach_px(const PixelRect& rect) const;  ///< how far around a pixel of `rect` its light comes from
-};
-
-/// `box`: around the object, tag frame; its footprint stands for where shadows fall. Less than half a pixel of motion, which
-/// widens no edge by more than a 50th pixel squared, counts as none.
-LensBlurPlan plan_lens_blur(const FrameView& view, const glm::dvec3& box_min_m, const glm::dvec3& box_max_m);
-
 class LensBlur {
  public:
   explicit LensBlur(ShaderLibrary& shaders);
 
-  /// Of textures that hold the frame's pixels of `rect`. Beyond it, its outermost pixels go on.
+  /// Blurs textures that hold the frame's pixels of `rect`. Beyond it, its outermost pixels go on.
   void apply(const LensBlurPlan& plan, const GlTexture& object, const GlTexture& shadow, const PixelRect& rect);
 
   const GlTexture& object() const { return targets_[latest_]->texture(0); }

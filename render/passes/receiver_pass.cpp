@@ -8,18 +8,10 @@
 namespace catchlight::render {
 namespace {
 
-constexpr float kFarthestShadow = 16;  ///< of the object's size
+constexpr float kFarthestShadow = 16;  ///< in sizes of the object
 /// Texels of the lights' texture across the object, and at most along a side.
 constexpr float kTexelsAcrossObject = 192;
 constexpr int kMinTexels = 16, kMaxTexels = 1024;
-
-PlaneRect unite(const PlaneRect& a, const PlaneRect& b) {
-  return {glm::min(a.min_m, b.min_m), glm::max(a.max_m, b.max_m)};
-}
-
-bool is_empty(const PlaneRect& rect) {
-  return !(rect.min_m.x < rect.max_m.x && rect.min_m.y < rect.max_m.y);
-}
 
 glm::vec4 as_vec4(const PlaneRect& rect) {
   return {rect.min_m, rect.max_m};
@@ -59,7 +51,7 @@ ReceiverPass::ReceiverPass(const Transfer& transfer, ShaderLibrary& shaders)
       points_("receiver", transfer.receiver, transfer.receiver_direct, transfer.bands * transfer.bands),
       irradiance_(make_texture_2d("receiver irradiance", GL_RGB32F, grid_.columns, grid_.rows, GL_LINEAR)) {}
 
-void ReceiverPass::light_by(const LightTransfer& transfer, const TagLight& light, const ShadowedLights& lights,
+void ReceiverPass::light_by(const LightTransfer& transfer, const SplitLight& light, const ShadowedLights& lights,
                             const glm::vec3& box_min_m, const glm::vec3& box_max_m) {
   points_.evaluate(transfer);
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, points_.radiance());
@@ -84,7 +76,7 @@ void ReceiverPass::light_by(const LightTransfer& transfer, const TagLight& light
   block_.points = glm::ivec4(grid_.columns, grid_.rows, 0, 0);
   reach_ = {grid_.min_m, grid_.max_m};
   const PlaneRect of_shadows = shadow_reach(light.samples, box_min_m, box_max_m);
-  if (!is_empty(of_shadows)) draw_lights(of_shadows, lights, box_min_m, box_max_m);
+  if (!of_shadows.empty()) draw_lights(of_shadows, lights, box_min_m, box_max_m);
   block_.drawn_min_max_m = as_vec4(reach_);
   uniforms_.update(block_);
 }

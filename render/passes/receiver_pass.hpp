@@ -10,24 +10,15 @@
 #include "render/gl/shader_library.hpp"
 #include "render/passes/light_transfer.hpp"
 #include "render/passes/shadowed_lights.hpp"
+#include "render/passes/split_light.hpp"
+#include "render/transfer/plane_rect.hpp"
 #include "render/transfer/transfer.hpp"
 
 namespace catchlight::render {
 
-/// Rectangle of the tag's plane: tag x, y.
-struct PlaneRect {
-  glm::vec2 min_m{0}, max_m{0};
-};
-
 /// Where samples that shine from above the plane may cast the shadow of what lies in the box (tag frame), no farther away than 16
 /// times its size. Empty (min beyond max) without any.
 PlaneRect shadow_reach(std::span<const LightSample> samples_tag, const glm::vec3& box_min_m, const glm::vec3& box_max_m);
-
-/// The light that points are lit by, in the tag frame.
-struct TagLight {
-  ShRgb whole, split_off;            ///< the second is the samples' part of the first; empty without samples
-  std::vector<LightSample> samples;  ///< as the shadow maps have them
-};
 
 class ReceiverPass {
  public:
@@ -36,7 +27,7 @@ class ReceiverPass {
 
   /// The plane's irradiance under `light`, which `transfer` holds too; needed again whenever the light turns. `lights` casts the
   /// shadows of what lies in the box.
-  void light_by(const LightTransfer& transfer, const TagLight& light, const ShadowedLights& lights, const glm::vec3& box_min_m,
+  void light_by(const LightTransfer& transfer, const SplitLight& light, const ShadowedLights& lights, const glm::vec3& box_min_m,
                 const glm::vec3& box_max_m);
 
   /// What may be in shadow.

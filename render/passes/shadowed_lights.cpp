@@ -9,7 +9,7 @@
 namespace catchlight::render {
 namespace {
 
-/// Of all maps together: 96 maps of 512 texels, 16 bits each.
+/// All maps together hold this many texels, of 16 bits: those of 96 maps of 512 x 512.
 constexpr int kTexelBudget = 96 * 512 * 512;
 constexpr int kMaxTexels = 2048;  ///< along a map's side
 

@@ -20,8 +20,8 @@ class ToneMeter {
  public:
   explicit ToneMeter(ShaderLibrary& shaders);
 
-  /// Of the first width x height texels of `light`. A pixel with a NaN counts for nothing, an infinite one as 2^32. Waits for the
-  /// GPU.
+  /// Measures the first width x height texels of `light`. A pixel with a NaN counts for nothing, an infinite one as 2^32. Waits
+  /// for the GPU.
   LuminanceHistogram measure(const GlTexture& light, int width, int height, const glm::dvec3& luminance_weights);
 
  private:

@@ -16,7 +16,8 @@ class ClassicLook {
  public:
   explicit ClassicLook(ShaderLibrary& shaders);
 
-  /// Of the picture in the first width x height texels of `light` (linear). Luminance over `threshold`, which keeps its colour.
+  /// Draws the glare of the picture in the first width x height texels of `light` (linear): of luminance over `threshold`, which
+  /// keeps its colour.
   void draw(const GlTexture& light, int width, int height, double threshold, double attenuation);
 
   /// Sum of three Gaussians, each of unit sum, of the bright parts at 512, 256 and 64 squared over the whole picture.

@@ -8,7 +8,7 @@
 namespace catchlight::render {
 namespace {
 
-/// Of the bands between passes.
+/// The bands between passes are this high together.
 constexpr int kMaxRows = 4096;
 
 /// Where a pass leaves light that lay within `light`.

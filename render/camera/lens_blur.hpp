@@ -1,0 +1,48 @@
+// Defocus and motion blur of the virtual layer, as the lens and the shutter blur the light: how much, and where to. A sharp view
+// costs nothing.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "catchlight/camera.hpp"
+#include "catchlight/pixel_rect.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "render/camera/lens_view.hpp"
+#include "render/frame_view.hpp"
+
+namespace catchlight::render {
+
+/// Where what is seen at a pixel moves while the shutter is open: displacement + change * (pixel - origin). Pixels.
+struct MotionField {
+  glm::dvec2 origin_px{0.0}, displacement_px{0.0};
+  glm::dmat2 change{0.0};
+
+  glm::dvec2 at(const glm::dvec2& pixel) const { return displacement_px + change * (pixel - origin_px); }
+};
+
+/// By least squares over points fixed to the tag, seen through the camera's lens; none moves where fewer than three are in view.
+MotionField fit_motion(const CameraModel& camera, const RigidTransform& camera_from_tag, const LensMotion& motion,
+                       std::span<const glm::dvec3> points_tag_m);
+
+/// e^-t I_n(t) for n = 0, 1, ...: the Gaussian of samples, whose variance is exactly t and which applied twice is that of 2 t
+/// (Lindeberg 1990, "Scale-space for discrete signals"). Ends where it is invisible; with its mirror it sums to 1.
+std::vector<float> discrete_gaussian(double variance);
+
+inline constexpr double kMaxDefocus_px2 = 400, kMaxMotion_px = 120;
+
+struct LensBlurPlan {
+  double variance_px2 = 0;
+  MotionField object, shadow;
+  bool moves = false;
+
+  bool empty() const { return variance_px2 == 0 && !moves; }
+  int reach_px(const PixelRect& rect) const;  ///< how far around a pixel of `rect` its light comes from
+};
+
+/// `box`: around the object, tag frame; its footprint stands for where shadows fall. Less than half a pixel of motion, which
+/// widens no edge by more than a 50th pixel squared, counts as none.
+LensBlurPlan plan_lens_blur(const FrameView& view, const glm::dvec3& box_min_m, const glm::dvec3& box_max_m);
+
+}  // namespace catchlight::render
