@@ -134,7 +134,7 @@ Figures compare(const std::vector<double>& ours, const std::vector<double>& othe
 
 void measure(const Baked& baked, const std::filesystem::path& file, std::ofstream& csv) {
   const Probe probe = load_probe(file.string(), {}, {});
-  const glm::dmat3 turn = tag_from_probe('z', 0);
+  const glm::dmat3 turn = tag_from_probe(UpAxis::z, 0);
   const Values exact = truth(baked.scene, rays_of(probe, turn));
   std::printf("\n%s\n\n", file.stem().c_str());
   std::printf("| bands | lights | samples | object RMS | max | bake noise | shadow RMS | max | bake noise |\n");

@@ -1,6 +1,7 @@
 // The track: what tracking knows of every frame, and all that rendering asks of it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 
@@ -18,6 +19,9 @@ enum class TrackState {
   coasting,  ///< not seen; the pose is predicted from the last frames
   lost       ///< no pose
 };
+constexpr auto names_of(TrackState) {
+  return std::array{"tracking", "coasting", "lost"};
+}
 
 /// Variance of a channel, of exposed linear light in the footage's primaries = slope * value + floor: shot noise and read noise
 /// (Foi et al. 2008, "Practical Poissonian-Gaussian noise modeling and fitting for single-image raw-data"). Of footage whose

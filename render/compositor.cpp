@@ -99,7 +99,7 @@ struct Compositor::Impl {
   std::unique_ptr<ReceiverPass> receiver;
   LensBlur lens_blur;
   GlarePass glare;
-  std::unique_ptr<ApertureGlarePass> aperture_glare;  ///< in its place where settings.glare.method is "fft"
+  std::unique_ptr<ApertureGlarePass> aperture_glare;  ///< in its place where settings.glare.method is fft
   CompositePass composite;
   std::unique_ptr<TonePass> tone;  ///< null: neither a tone curve nor the classic look
   UniformBuffer<shader_interface::ViewUniforms> view_uniforms{"view"};
@@ -126,7 +126,8 @@ Compositor::Impl::Impl(const RenderScene& scene, const CompositorSettings& wante
   settings.samples = supported_samples(wanted.samples);
   if (wanted.tone.enabled || wanted.look == Look::classic) tone = std::make_unique<TonePass>(wanted, shaders);
   if (wanted.look == Look::classic) settings.glare.enabled = false;  // that look has its own
-  if (settings.glare.enabled && wanted.glare.method == "fft") aperture_glare = std::make_unique<ApertureGlarePass>(wanted.glare);
+  if (settings.glare.enabled && wanted.glare.method == GlareMethod::fft)
+    aperture_glare = std::make_unique<ApertureGlarePass>(wanted.glare);
   if (scene.transfer.grid.columns >= 2 && scene.transfer.grid.rows >= 2)
     receiver = std::make_unique<ReceiverPass>(scene.transfer, shaders);
   check_gl("the compositor's start");

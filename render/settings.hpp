@@ -1,11 +1,20 @@
 // How a scene is drawn: glare, tone, quality.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "render/tone/tone_curve.hpp"
 
 namespace catchlight::render {
+
+enum class GlareMethod {
+  fast,  ///< bloom and streaks, drawn on a grid
+  fft    ///< what an aperture diffracts, as render/glare/fft_glare.hpp says
+};
+constexpr auto names_of(GlareMethod) {
+  return std::array{"fast", "fft"};
+}
 
 struct GlareSettings {
   bool enabled = true;
@@ -17,12 +26,12 @@ struct GlareSettings {
   double streak_attenuation = 0.92;  ///< a of a^k, per pixel at a frame height of 480 px
   double streak_dispersion = 0;      ///< 1: a streak is as long as its colour's wavelength says; 0: all alike
   double streak_rotation_deg = 45;
-  double streak_width = 0.006;    ///< standard deviation across, in shares of the frame's height
-  double emitter_strength = 1;    ///< of what the object's materials emit, against what else is as bright
-  int emitter_directions = 0;     ///< streaks of what they emit; 0: as of the rest
-  int streak_passes = 0;          ///< of four samples each; 0: as many as can be seen
-  int grid_rows = 240;            ///< resolution that glare is computed at; texels are never smaller than pixels
-  std::string method = "fast";    ///< or "fft": of an aperture, as render/glare/fft_glare.hpp says
+  double streak_width = 0.006;  ///< standard deviation across, in shares of the frame's height
+  double emitter_strength = 1;  ///< of what the object's materials emit, against what else is as bright
+  int emitter_directions = 0;   ///< streaks of what they emit; 0: as of the rest
+  int streak_passes = 0;        ///< of four samples each; 0: as many as can be seen
+  int grid_rows = 240;          ///< resolution that glare is computed at; texels are never smaller than pixels
+  GlareMethod method = GlareMethod::fast;
   std::string aperture = "none";  ///< or what aperture_picture() takes
   double aperture_mm = 2;         ///< width of its picture
   double aperture_strength = 1;   ///< 1: as much as the aperture diffracts
@@ -31,6 +40,9 @@ struct GlareSettings {
 /// `classic`: bloom and streaks of the whole picture as in render/passes/glare/classic_glare.hpp, instead of those of the
 /// object's highlights.
 enum class Look { camera, classic };
+constexpr auto names_of(Look) {
+  return std::array{"camera", "classic"};
+}
 
 struct CompositorSettings {
   GlareSettings glare;

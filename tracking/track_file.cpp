@@ -8,6 +8,7 @@
 
 #include "catchlight/error.hpp"
 #include "catchlight/rigid_transform.hpp"
+#include "catchlight/util/enum_names.hpp"
 #include "catchlight/util/text.hpp"
 
 namespace catchlight::tracking {
@@ -128,8 +129,8 @@ class Reader {
   TrackState state(bool is_found) const {
     const std::string* text = cell("state");
     if (!text) return is_found ? TrackState::tracking : TrackState::lost;
-    for (const TrackState candidate : {TrackState::tracking, TrackState::coasting, TrackState::lost})
-      if (*text == name_of(candidate) && is_found == (candidate != TrackState::lost)) return candidate;
+    const auto state = value_named<TrackState>(*text);
+    if (state && is_found == (*state != TrackState::lost)) return *state;
     fail("column 'state' is \"" + *text + "\"; expected " +
          (is_found ? "tracking or coasting, as found is 1" : "lost, as found is 0"));
   }
@@ -188,7 +189,7 @@ std::string header_text() {
 std::string row_text(const TrackRow& row) {
   std::string text = std::to_string(row.frame) + ',' + number_text(row.time_s) + (row.found ? ",1" : ",0");
   for (const double cell : pose_cells(row.camera_from_tag)) text += ',' + (row.found ? number_text(cell) : "");
-  text += std::string(",") + name_of(row.state);
+  text += ',' + name_of(row.state);
   for (const glm::dvec3& rgb : {row.exposure, row.black})
     for (int i = 0; i < 3; ++i) text += ',' + number_text(rgb[i]);
   const Covariance2& blur = row.blur_px2;
@@ -202,18 +203,6 @@ std::string row_text(const TrackRow& row) {
 }
 
 }  // namespace
-
-const char* name_of(TrackState state) {
-  switch (state) {
-    case TrackState::tracking:
-      return "tracking";
-    case TrackState::coasting:
-      return "coasting";
-    case TrackState::lost:
-      return "lost";
-  }
-  throw Error("not a track state: " + std::to_string(static_cast<int>(state)));
-}
 
 std::vector<TrackRow> read_track_file(const std::string& path) {
   return Reader(path).read();

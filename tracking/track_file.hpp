@@ -14,9 +14,6 @@
 
 namespace catchlight::tracking {
 
-/// As the files say it: "tracking", "coasting", "lost".
-const char* name_of(TrackState state);
-
 /// Columns are found by name; `frame` is needed, and r00 .. tz unless every row has found 0. A file without the others (known
 /// poses) reads too: found, tracking, without exposure. Throws Error "file:line: ..." for what is malformed, not a rotation (more
 /// than 1e-3 off orthonormal or mirrored), not finite, or not in rising order of frames.

@@ -1,14 +1,19 @@
 // How tags are tracked.
 #pragma once
 
+#include <array>
+
 namespace catchlight::tracking {
 
-/// What follows detection, from cheap to exact.
+/// What follows detection, from exact to cheap.
 enum class Refinement {
-  none,     ///< the detector's corners
-  corners,  ///< its four edges, fitted in linear light
-  direct    ///< the whole pattern
+  direct,   ///< the whole pattern is fitted
+  corners,  ///< the four edges are fitted in linear light
+  none      ///< the detector's corners are taken
 };
+constexpr auto names_of(Refinement) {
+  return std::array{"direct", "corners", "none"};
+}
 
 struct TrackerOptions {
   Refinement refinement = Refinement::direct;

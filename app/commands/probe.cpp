@@ -14,6 +14,7 @@
 #include "catchlight/color.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/image.hpp"
+#include "catchlight/util/enum_names.hpp"
 #include "catchlight/util/text.hpp"
 #include "render/probe/probe_split.hpp"
 #include "render/render_scene.hpp"
@@ -61,7 +62,7 @@ void print_info(const ProbeArguments& arguments, Log& log) {
   const render::Probe probe = load(arguments, log);
   const ProbeStatistics statistics = measure_probe(probe, arguments.bands);
   print("size", std::to_string(probe.image.width) + "x" + std::to_string(probe.image.height));
-  print("layout", render::name_of(probe.layout));
+  print("layout", name_of(probe.layout));
   print("luminance", "max " + shown(statistics.max) + ", min above 0 " + shown(statistics.min_lit) + ", mean " +
                          shown(statistics.mean) + ", log-average " + shown(statistics.log_average));
   print("range", shown(statistics.range_ev) + " EV");

@@ -10,6 +10,7 @@
 #include "app/tools/tag_print/tag_grid.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/tag.hpp"
+#include "catchlight/util/enum_names.hpp"
 #include "catchlight/util/text.hpp"
 
 namespace catchlight::app {
@@ -48,13 +49,13 @@ void read_tag(Options& options, bool is_tag_given) {
   if (!options.scene.empty()) {
     const SceneSettings scene = read_scene_file(options.scene);
     request.tag = scene.tag.target();
-    request.up = scene.probe.up.front();
+    request.up = scene.probe.up;
     request.yaw_deg = scene.probe.yaw_deg;
   } else if (is_tag_given) {
     check_length(options.tag.size_m, "--tag-size-m");
     request.tag = TagTarget{options.tag, {}};
   }
-  if (!options.up.empty()) request.up = options.up.front();
+  if (const auto up = value_named<render::UpAxis>(options.up)) request.up = *up;
 }
 
 void merge(Options& options, bool is_tag_given, Log& log) {
@@ -100,7 +101,7 @@ CLI::Option* add_orientation(CLI::App& command, Options& options) {
   command.add_option("--tag-family", options.tag.family, "its family")->capture_default_str();
   command.add_option("--tag-id", options.tag.id, "its id")->capture_default_str();
   command.add_option("--up", options.up, "the tag's axis that points up: z on a table, y on a wall (default z)")
-      ->check(CLI::IsMember({"y", "z"}));
+      ->check(CLI::IsMember(name_list<render::UpAxis>()));
   command
       .add_option("--view-yaw", options.request.view_yaw_deg,
                   "without a tag: where each camera stands, degrees about up; 0 is probe +z, 90 is +x")

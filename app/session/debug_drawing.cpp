@@ -8,8 +8,8 @@
 #include "catchlight/pixel_rect.hpp"
 #include "catchlight/plate.hpp"
 #include "catchlight/rigid_transform.hpp"
+#include "catchlight/util/enum_names.hpp"
 #include "tracking/camera/lens.hpp"
-#include "tracking/track_file.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -93,7 +93,7 @@ const cv::Scalar& color_of(TrackState state) {
 
 /// In the top left corner, as wide as the picture at most.
 void add_labels(Sketch& sketch, const TrackRow& row, int width_px) {
-  sketch.labels.push_back({"frame " + std::to_string(row.frame) + "  " + tracking::name_of(row.state), color_of(row.state), {}});
+  sketch.labels.push_back({"frame " + std::to_string(row.frame) + "  " + name_of(row.state), color_of(row.state), {}});
   if (row.state == TrackState::tracking) {
     char text[80];
     std::snprintf(text, sizeof text, "corners +-%.3f px  residual %.1f codes  ambiguity %.2f", row.corner_sigma_px,

@@ -65,7 +65,7 @@ tracking::ExposureMatch exposure_match(const CameraModel& camera, const SceneSet
 
 /// Only where the virtual layer follows the footage's exposure does it matter that it could not be read.
 std::optional<std::string> exposure_warning(const tracking::ExposureCounts& counts, const SceneSettings::Exposure& settings) {
-  return settings.mode == "match" ? counts.warning() : std::nullopt;
+  return settings.mode == ExposureMode::match ? counts.warning() : std::nullopt;
 }
 
 class TagTrack : public FrameTrack {

@@ -100,7 +100,7 @@ PlanEntry chroma_entry(Switch wanted, const glm::ivec2& shift) {
 glm::dvec3 exposure_gain(const SceneSettings::Exposure& settings, const glm::dvec3& white,
                          const glm::dvec3& tag_irradiance_over_pi) {
   const double stops = std::exp2(settings.ev);
-  if (settings.mode == "fixed") return glm::dvec3(stops);
+  if (settings.mode == ExposureMode::fixed) return glm::dvec3(stops);
   glm::dvec3 gain(0.0);  // a channel in which the probe is black stays black
   for (int c = 0; c < 3; ++c)
     if (tag_irradiance_over_pi[c] > 1e-12) gain[c] = stops * white[c] / tag_irradiance_over_pi[c];

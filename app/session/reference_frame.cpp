@@ -23,7 +23,7 @@ struct Exposure {
 Exposure exposure_of(const reference::ReferenceScene& scene, const SceneSettings& settings, const TrackRow& row) {
   const glm::dvec3 on_tag = render::irradiance(scene.probe, glm::transpose(scene.tag_from_probe) * glm::dvec3(0, 0, 1));
   return {exposure_gain(settings.exposure, row.exposure, on_tag / glm::pi<double>()),
-          settings.exposure.mode == "match" ? row.black : glm::dvec3(0)};
+          settings.exposure.mode == ExposureMode::match ? row.black : glm::dvec3(0)};
 }
 
 reference::ReferenceScene traced_scene(const SceneSettings& settings, const TrackRow& row, const WarningHandler& warn) {
@@ -31,9 +31,9 @@ reference::ReferenceScene traced_scene(const SceneSettings& settings, const Trac
   scene.mesh = build_mesh(settings, warn);
   scene.probe = load_scaled_probe(settings, warn);
   scene.tag_from_probe = light_from_probe(settings.probe);
-  if (settings.probe.fixed_to == "camera")
+  if (settings.probe.fixed_to == LightFrame::camera)
     scene.tag_from_probe = glm::transpose(row.camera_from_tag.rotation) * scene.tag_from_probe;
-  scene.has_receiver = settings.receiver.plane == "tag";
+  scene.has_receiver = settings.receiver.plane == ReceiverPlane::tag;
   scene.probe_in_tag_m = probe_in_tag_m(scene.mesh);
   return scene;
 }

@@ -99,7 +99,7 @@ void bake(BuiltScene& built, const SceneSettings& settings, const WarningHandler
   options.bands = choose_bands(settings, mesh.vertices.size(), built.plan);
   options.rays = built.rays = choose_rays(settings, mesh.vertices.size(), built.plan);
   options.bounces = settings.quality.bounces;
-  const bool has_receiver = settings.receiver.plane == "tag";
+  const bool has_receiver = settings.receiver.plane == ReceiverPlane::tag;
   const render::ReceiverGrid grid =
       has_receiver ? render::receiver_grid_for(mesh, settings.quality.receiver_points) : render::ReceiverGrid{};
   if (has_receiver) options.receiver_albedo = choose_receiver_albedo(built, settings);
@@ -137,7 +137,7 @@ render::Probe load_scaled_probe(const SceneSettings& settings, const WarningHand
   if (settings.probe.image.empty())
     throw Error("the scene has no light: give [probe] image = \"FILE\" in the scene file, or --probe.image FILE");
   render::ProbeLoadOptions options;
-  if (settings.probe.layout != "auto") options.layout = render::probe_layout_from_name(settings.probe.layout);
+  options.layout = settings.probe.layout;
   options.strict = settings.probe.strict;
   render::Probe probe = render::load_probe(settings.resolve(settings.probe.image), options, warn);
   const auto gain = static_cast<float>(std::exp2(settings.probe.ev));
@@ -147,9 +147,9 @@ render::Probe load_scaled_probe(const SceneSettings& settings, const WarningHand
 
 // The camera's up is -y, and it looks along probe -z.
 glm::dmat3 light_from_probe(const SceneSettings::Probe& probe) {
-  if (probe.fixed_to == "tag") return render::tag_from_probe(probe.up.front(), probe.yaw_deg);
+  if (probe.fixed_to == LightFrame::tag) return render::tag_from_probe(probe.up, probe.yaw_deg);
   const glm::dmat3 camera_from_upright(glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0, 0, -1));
-  return camera_from_upright * render::tag_from_probe('y', probe.yaw_deg);
+  return camera_from_upright * render::tag_from_probe(render::UpAxis::y, probe.yaw_deg);
 }
 
 glm::dvec3 probe_in_tag_m(const render::Mesh& mesh) {
@@ -172,7 +172,7 @@ BuiltScene build_render_scene(const SceneSettings& settings, const WarningHandle
   BuiltScene built;
   built.probe = load_scaled_probe(settings, warn);
   built.light_from_probe = light_from_probe(settings.probe);
-  built.light_follows_camera = settings.probe.fixed_to == "camera";
+  built.light_follows_camera = settings.probe.fixed_to == LightFrame::camera;
   built.scene.mesh = build_mesh(settings, warn);
   built.scene.probe_in_tag_m = glm::vec3(probe_in_tag_m(built.scene.mesh));
   bake(built, settings, warn, progress);

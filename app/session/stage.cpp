@@ -21,7 +21,7 @@ render::FrameView frame_view(const CameraModel& camera, const SceneSettings& sce
   if (!row.found) return view;
   view.camera_from_tag = row.camera_from_tag;
   view.exposure = exposure_gain(scene.exposure, row.exposure, tag_irradiance_over_pi(built, row.camera_from_tag));
-  view.black = scene.exposure.mode == "fixed" ? glm::dvec3(0.0) : row.black;
+  view.black = scene.exposure.mode == ExposureMode::fixed ? glm::dvec3(0.0) : row.black;
   if (row.has_exposure) view.receiver_light = row.exposure * scene.receiver.albedo + row.black;
   view.tag_from_light = tag_from_light(built, row.camera_from_tag);
   view.lens = lens_view(scene.lens, row, frame, vignetting);
@@ -43,7 +43,7 @@ Stage build_stage(const SceneSettings& scene, Log& log, Report& report) {
   render::CompositorSettings settings;
   settings.glare = scene.glare;
   settings.glare.aperture = word_or_path(scene, "glare.aperture");
-  settings.look = compositor_look(scene);
+  settings.look = scene.look;
   settings.tone = tone_settings(scene);
   settings.samples = scene.quality.samples;
   settings.reflection_rays = scene.quality.reflection_rays;

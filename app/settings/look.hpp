@@ -8,9 +8,8 @@ namespace catchlight::app {
 /// Sets what `scene.look` names, except for `kept` keys. After scene file and command line.
 void apply_look(SceneSettings& scene, const std::set<std::string>& kept);
 
-/// What the compositor is told of exposure and look.
+/// What the compositor is told of exposure.
 render::ToneSettings tone_settings(const SceneSettings& scene);
-render::Look compositor_look(const SceneSettings& scene);
 
 /// Whether frames change in which nothing virtual is in sight.
 bool recodes_every_frame(const SceneSettings& scene);

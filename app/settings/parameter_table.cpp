@@ -19,10 +19,10 @@ std::vector<Parameter> make_table() {
       {"look", "", passes,
        "\"camera\": as the footage's camera would show it; \"classic\": exposure, bloom and star of the first real-time HDR "
        "pictures, which sets `exposure` and `glare` where they are left out.",
-       ChoiceKind{[](auto& s) { return &s.look; }, {"camera", "classic"}}},
+       ChoiceKind{[](auto& s) { return &s.look; }}},
 
       {"tag.family", "", track, "Family of the printed tag.",
-       ChoiceKind{[](auto& s) { return &s.tag.family; }, tracking::tag_families()}},
+       WordKind{[](auto& s) { return &s.tag.family; }, tracking::tag_families()}},
       {"tag.id", "", track, "Number of the tag within its family.", IntegerKind{[](auto& s) { return &s.tag.id; }, 0, 1'000'000}},
       {"tag.size_m", "m", track,
        "Side of the square whose corners detectors return: the outer edge of the black border for tag36h11.",
@@ -34,9 +34,9 @@ std::vector<Parameter> make_table() {
 
       {"tag.refinement", "", track,
        "What follows detection, from exact to cheap: the whole pattern (pose, blur and light at once), the four edges, nothing.",
-       ChoiceKind{[](auto& s) { return &s.tag.refinement; }, {"direct", "corners", "none"}}},
+       ChoiceKind{[](auto& s) { return &s.tag.refinement; }}},
       {"tag.bundle.family", "", track, "Family of a further tag of a board.",
-       ChoiceKind{[](auto& s, std::size_t i) { return &s.tag.bundle[i].family; }, same_or_family()}},
+       WordKind{[](auto& s, std::size_t i) { return &s.tag.bundle[i].family; }, same_or_family()}},
       {"tag.bundle.id", "", track, "Its number.",
        IntegerKind{[](auto& s, std::size_t i) { return &s.tag.bundle[i].id; }, 0, 1'000'000}},
       {"tag.bundle.size_m", "m", track, "Its size; 0: the same as the first tag's.",
@@ -56,30 +56,30 @@ std::vector<Parameter> make_table() {
       {"object.tag_from_object.scale", "", mesh, "Size of the object relative to its file.",
        RealKind{[](auto& s, std::size_t i) { return &s.objects[i].scale; }, 1e-6, 1e6}},
       {"object.shading", "", mesh, "Lighting model: precomputed radiance transfer with mirror reflections.",
-       ChoiceKind{[](auto& s, std::size_t i) { return &s.objects[i].shading; }, {"prt"}}},
+       ChoiceKind{[](auto& s, std::size_t i) { return &s.objects[i].shading; }}},
 
       {"receiver.plane", "", bake, "The real surface that catches the shadow: the tag's plane, or none.",
-       ChoiceKind{[](auto& s) { return &s.receiver.plane; }, {"tag", "none"}}},
+       ChoiceKind{[](auto& s) { return &s.receiver.plane; }}},
       {"receiver.albedo", "", bake, "Reflectance (linear RGB) of that surface, where no probe fixed to the tag shows it.",
        VectorKind{[](auto& s) { return &s.receiver.albedo; }, 0, 1}},
 
       {"probe.image", "", light, "Light probe: OpenEXR or Radiance HDR, scene-linear Rec. 709.",
        PathKind{[](auto& s) { return &s.probe.image; }}},
       {"probe.layout", "", light, "How directions lie in the image; \"auto\": as the file says, else by its shape.",
-       ChoiceKind{[](auto& s) { return &s.probe.layout; }, {"auto", "latlong", "angular", "mirror-ball", "cube-cross", "cube"}}},
+       ChoiceKind{[](auto& s) { return &s.probe.layout; }}},
       {"probe.up", "", light, "The tag axis that points up in the world: \"z\" for a tag on a table, \"y\" for one on a wall.",
-       ChoiceKind{[](auto& s) { return &s.probe.up; }, {"z", "y"}}},
+       ChoiceKind{[](auto& s) { return &s.probe.up; }}},
       {"probe.yaw_deg", "deg", light, "Turns the probe about up, counter-clockwise seen from above.",
        RealKind{[](auto& s) { return &s.probe.yaw_deg; }, -360, 360}},
       {"probe.fixed_to", "", light,
        "What the light stands still with: \"tag\" (moving camera) or \"camera\" (still camera, tag in the hand).",
-       ChoiceKind{[](auto& s) { return &s.probe.fixed_to; }, {"tag", "camera"}}},
+       ChoiceKind{[](auto& s) { return &s.probe.fixed_to; }}},
       {"probe.ev", "EV", light, "Brightens the probe.", RealKind{[](auto& s) { return &s.probe.ev; }, -30, 30}},
 
       {"exposure.mode", "", passes,
        "\"match\" follows the footage by the tag's own white and black; \"fixed\" takes radiance as exposed; \"auto\" matches, "
        "then exposes the whole picture anew as an adapting eye does.",
-       ChoiceKind{[](auto& s) { return &s.exposure.mode; }, {"match", "fixed", "auto"}}},
+       ChoiceKind{[](auto& s) { return &s.exposure.mode; }}},
       {"exposure.ev", "EV", view, "Brightens the virtual layer on top of that.",
        RealKind{[](auto& s) { return &s.exposure.ev; }, -30, 30}},
       {"exposure.key", "", passes, "Of \"auto\": the exposed value that the picture's log-average becomes.",
@@ -132,7 +132,7 @@ std::vector<Parameter> make_table() {
 
       {"glare.method", "", passes,
        "\"fast\": bloom and streaks. \"fft\": by FFT at full resolution, what glare.aperture diffracts; seconds a frame.",
-       ChoiceKind{[](auto& s) { return &s.glare.method; }, {"fast", "fft"}}},
+       ChoiceKind{[](auto& s) { return &s.glare.method; }}},
       {"glare.aperture", "", passes,
        "With \"fft\": what stands in the light's way, drawn, or a square picture, white where light passes; \"none\": the bloom "
        "and "

@@ -19,11 +19,6 @@ std::string text_of(const glm::dvec3& v) {
   return number_text(v.x) + ',' + number_text(v.y) + ',' + number_text(v.z);
 }
 
-std::string text_of(Switch value) {
-  if (value == Switch::automatic) return "auto";
-  return value == Switch::on ? "true" : "false";
-}
-
 /// As a message shows what was given.
 std::string shown(const ParameterValue& value) {
   return std::visit(
@@ -69,20 +64,20 @@ struct Store {
     return true;
   }
   bool operator()(const FlagKind& kind) const { return store_as<bool>(kind.access); }
-  bool operator()(const TextKind& kind) const { return store_as<std::string>(kind.access); }
   bool operator()(const PathKind& kind) const {
     const auto* path = std::get_if<std::string>(&value);
     return path && !path->empty() && store_as<std::string>(kind.access);
   }
+  bool operator()(const WordKind& kind) const { return names(kind.choices) && store_as<std::string>(kind.access); }
   bool operator()(const ChoiceKind& kind) const {
-    const auto* text = std::get_if<std::string>(&value);
-    const bool known = text && std::find(kind.choices.begin(), kind.choices.end(), *text) != kind.choices.end();
-    return known && store_as<std::string>(kind.access);
+    if (!names(kind.choices)) return false;
+    kind.set(settings, index, std::get<std::string>(value));
+    return true;
   }
   bool operator()(const SwitchKind& kind) const {
     const auto* text = std::get_if<std::string>(&value);
     const auto* flag = std::get_if<bool>(&value);
-    if (!flag && !(text && *text == "auto")) return false;
+    if (!flag && !(text && *text == name_of(Switch::automatic))) return false;
     kind.access(settings, index) = !flag ? Switch::automatic : *flag ? Switch::on : Switch::off;
     return true;
   }
@@ -94,6 +89,10 @@ struct Store {
   }
 
  private:
+  bool names(const std::vector<std::string>& choices) const {
+    const auto* text = std::get_if<std::string>(&value);
+    return text && std::find(choices.begin(), choices.end(), *text) != choices.end();
+  }
   template <class T>
   bool store_as(const Access<T>& access) const {
     const T* held = std::get_if<T>(&value);
@@ -198,16 +197,14 @@ void set_parameter_from_text(SceneSettings& settings, const std::string& key, co
 }
 
 std::string parameter_text(const SceneSettings& settings, const Parameter& parameter, std::size_t index) {
-  const bool is_there = index < element_count(settings, parameter);
-  const auto held = [&](const auto& access) -> const auto& {
-    return is_there ? access(settings, index) : access(defaults(), 0);
-  };
-  return std::visit(Overloaded{[&](const RealKind& kind) { return number_text(held(kind.access)); },
-                               [&](const IntegerKind& kind) { return std::to_string(held(kind.access)); },
-                               [&](const FlagKind& kind) { return std::string(held(kind.access) ? "true" : "false"); },
-                               [&](const SwitchKind& kind) { return text_of(held(kind.access)); },
-                               [&](const VectorKind& kind) { return text_of(held(kind.access)); },
-                               [&](const auto& kind) { return held(kind.access); }},
+  if (index >= element_count(settings, parameter)) return parameter_text(defaults(), parameter);
+  return std::visit(Overloaded{[&](const RealKind& kind) { return number_text(kind.access(settings, index)); },
+                               [&](const IntegerKind& kind) { return std::to_string(kind.access(settings, index)); },
+                               [&](const FlagKind& kind) { return std::string(kind.access(settings, index) ? "true" : "false"); },
+                               [&](const SwitchKind& kind) { return name_of(kind.access(settings, index)); },
+                               [&](const VectorKind& kind) { return text_of(kind.access(settings, index)); },
+                               [&](const ChoiceKind& kind) { return kind.held(settings, index); },
+                               [&](const auto& kind) { return kind.access(settings, index); }},
                     parameter.kind);
 }
 
@@ -225,14 +222,16 @@ std::string expected_text(const Parameter& parameter) {
                    return range_text("a whole number", std::to_string(kind.min), std::to_string(kind.max), unit);
                  },
                  [](const FlagKind&) { return std::string("true or false"); },
-                 [](const TextKind&) { return std::string("text"); },
                  [](const PathKind& kind) {
                    std::string words;
                    for (const std::string& word : kind.words) words += '"' + word + "\", ";
                    return (words.empty() ? "" : words + "or ") + "the name of a file";
                  },
+                 [](const WordKind& kind) { return quoted_list(kind.choices); },
                  [](const ChoiceKind& kind) { return quoted_list(kind.choices); },
-                 [](const SwitchKind&) { return std::string("\"auto\", true or false"); },
+                 [](const SwitchKind&) {
+                   return '"' + name_of(Switch::automatic) + "\", " + name_of(Switch::on) + " or " + name_of(Switch::off);
+                 },
                  [&](const VectorKind& kind) {
                    return range_text("three numbers", number_text(kind.min), number_text(kind.max), unit);
                  }},

@@ -40,7 +40,7 @@ std::string shown_default(const Parameter& parameter) {
     return list + "]`";
   }
   const bool is_text =
-      std::holds_alternative<ChoiceKind>(parameter.kind) || std::holds_alternative<TextKind>(parameter.kind) || text == "auto";
+      std::holds_alternative<ChoiceKind>(parameter.kind) || std::holds_alternative<WordKind>(parameter.kind) || text == "auto";
   return is_text ? "`\"" + text + "\"`" : '`' + text + '`';
 }
 

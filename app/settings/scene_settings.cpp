@@ -32,9 +32,7 @@ TagTarget SceneSettings::Tag::target() const {
 
 tracking::TrackerOptions SceneSettings::Tag::tracker_options() const {
   tracking::TrackerOptions options;
-  options.refinement = refinement == "none"      ? tracking::Refinement::none
-                       : refinement == "corners" ? tracking::Refinement::corners
-                                                 : tracking::Refinement::direct;
+  options.refinement = refinement;
   return options;
 }
 

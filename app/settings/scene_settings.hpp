@@ -1,6 +1,7 @@
 // What a scene file says: the tag, the objects on it, the light, the lens. Every member is a row of the table in parameters.cpp.
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 #include <optional>
 #include <set>
@@ -8,6 +9,8 @@
 #include <vector>
 
 #include "catchlight/tag.hpp"
+#include "catchlight/util/enum_names.hpp"
+#include "render/probe/probe.hpp"
 #include "render/settings.hpp"
 #include "tracking/tracker_options.hpp"
 
@@ -15,16 +18,49 @@ namespace catchlight::app {
 
 /// Left to the program, or forced.
 enum class Switch { automatic, off, on };
+constexpr auto names_of(Switch) {
+  return std::array{"auto", "false", "true"};
+}
+
+/// How an object is lit.
+enum class Shading {
+  prt  ///< precomputed radiance transfer, with mirror reflections
+};
+constexpr auto names_of(Shading) {
+  return std::array{"prt"};
+}
+
+/// The real surface that catches the shadow.
+enum class ReceiverPlane { tag, none };
+constexpr auto names_of(ReceiverPlane) {
+  return std::array{"tag", "none"};
+}
+
+/// What the light stands still with.
+enum class LightFrame { tag, camera };
+constexpr auto names_of(LightFrame) {
+  return std::array{"tag", "camera"};
+}
+
+/// Where the virtual layer's exposure comes from (docs/exposure.md).
+enum class ExposureMode {
+  match,     ///< the footage's, read off the tag
+  fixed,     ///< radiance as it is
+  automatic  ///< the footage's, and then the whole picture is exposed anew
+};
+constexpr auto names_of(ExposureMode) {
+  return std::array{"match", "fixed", "auto"};
+}
 
 struct SceneSettings {
-  std::string look = "camera";  ///< "camera" or "classic"
+  render::Look look = render::Look::camera;
 
   struct Tag {
     std::string family = "tag36h11";
     int id = 0;
     double size_m = 0.08;
     double white_albedo = 0.8, black_albedo = 0.04;
-    std::string refinement = "direct";
+    tracking::Refinement refinement = tracking::Refinement::direct;
 
     /// A further tag of a board.
     struct Bundled {
@@ -45,7 +81,7 @@ struct SceneSettings {
     glm::dvec3 rotation_deg{0.0};
     double scale = 1.0;
     std::optional<glm::dmat4> matrix;  ///< stands for the three above where the file gives it
-    std::string shading = "prt";
+    Shading shading = Shading::prt;
 
     /// matrix, or translation * Rz * Ry * Rx * scale: turned about the tag's x axis first, then y, then z.
     glm::dmat4 tag_from_object() const;
@@ -53,22 +89,22 @@ struct SceneSettings {
   std::vector<Object> objects;
 
   struct Receiver {
-    std::string plane = "tag";  ///< "tag" or "none"
+    ReceiverPlane plane = ReceiverPlane::tag;
     glm::dvec3 albedo{0.8};
   } receiver;
 
   struct Probe {
     std::string image;
-    std::string layout = "auto";  ///< "auto": as the file says, else by its shape
-    std::string up = "z";
+    std::optional<render::ProbeLayout> layout;  ///< empty: as the file says, else by its shape
+    render::UpAxis up = render::UpAxis::z;
     double yaw_deg = 0;
-    std::string fixed_to = "tag";
+    LightFrame fixed_to = LightFrame::tag;
     double ev = 0;
     bool strict = false;  ///< refuse bad texels; the command line's --strict, not a key of the file
   } probe;
 
   struct Exposure {
-    std::string mode = "match";
+    ExposureMode mode = ExposureMode::match;
     double ev = 0;
     std::string response = "footage";                 ///< as app/response/response_file.hpp says
     double key = 0.18;                                ///< of "auto", as the next

@@ -34,7 +34,7 @@ std::vector<CameraKey> camera_path_y_up(const std::vector<TrackRow>& rows, const
 }
 
 glm::dmat3 y_up_from_tag(const SceneSettings& scene) {
-  return glm::transpose(render::tag_from_probe(scene.probe.up.front(), 0));
+  return glm::transpose(render::tag_from_probe(scene.probe.up, 0));
 }
 
 double vertical_fov_rad(const CameraModel& camera) {

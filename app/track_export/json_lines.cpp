@@ -3,7 +3,7 @@
 #include "app/track_export/formats.hpp"
 #include "catchlight/rigid_transform.hpp"
 #include "catchlight/track.hpp"
-#include "tracking/track_file.hpp"
+#include "catchlight/util/enum_names.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -30,7 +30,7 @@ std::string json_lines_text(const std::vector<TrackRow>& rows) {
   for (const TrackRow& row : rows) {
     const Json line{{"frame", row.frame},
                     {"time_s", row.time_s},
-                    {"state", tracking::name_of(row.state)},
+                    {"state", name_of(row.state)},
                     {"camera_from_tag", row.found ? rows_of(row.camera_from_tag) : Json(nullptr)},
                     {"exposure", rgb_or_null(row, row.exposure)},
                     {"black", rgb_or_null(row, row.black)},

@@ -173,15 +173,13 @@ Probe convert(const Probe& probe, ProbeLayout layout, int width) {
   return result;
 }
 
-glm::dmat3 tag_from_probe(char up, double yaw_deg) {
-  if (up != 'y' && up != 'z')
-    throw Error(std::string("probe up axis '") + up + "': expected y (tag on a wall) or z (tag on a table)");
+glm::dmat3 tag_from_probe(UpAxis up, double yaw_deg) {
   const double yaw = yaw_deg * kPi / 180;
   // Columns: where probe +x, +y and +z go. The yaw turns about probe +y, counter-clockwise seen from above.
   const glm::dmat3 turned(glm::dvec3(std::cos(yaw), 0, -std::sin(yaw)), glm::dvec3(0, 1, 0),
                           glm::dvec3(std::sin(yaw), 0, std::cos(yaw)));
   const glm::dmat3 table(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0));
-  return up == 'z' ? table * turned : turned;
+  return up == UpAxis::z ? table * turned : turned;
 }
 
 }  // namespace catchlight::render

@@ -1,12 +1,14 @@
 // Light probes: images of scene-linear radiance over all directions, in the layouts users have.
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
 
 #include "catchlight/error.hpp"
 #include "catchlight/image.hpp"
+#include "catchlight/util/enum_names.hpp"
 #include "render/math/sh.hpp"
 #include "render/probe/probe_layouts.hpp"
 
@@ -49,9 +51,17 @@ void save_probe(const std::string& path, const Probe& probe, ExrPrecision precis
 /// c_i = sum of radiance * y_i * solid angle over all texels; no sampling noise.
 ShRgb project_to_sh(const Probe& probe, int bands);
 
-/// Rotation that takes probe directions to tag directions. `up` is the tag axis that points up in the world: 'z' (tag on a table:
-/// probe +y = tag +z, +z = tag -y, +x = tag +x) or 'y' (tag on a wall: axes agree); then yaw about up.
-glm::dmat3 tag_from_probe(char up, double yaw_deg);
+/// The tag axis that points up in the world.
+enum class UpAxis {
+  z,  ///< tag on a table: probe +y = tag +z, +z = tag -y, +x = tag +x
+  y   ///< tag on a wall: the axes agree
+};
+constexpr auto names_of(UpAxis) {
+  return std::array{"z", "y"};
+}
+
+/// The rotation that takes probe directions to tag directions: the axes as `up` says, then yaw about up.
+glm::dmat3 tag_from_probe(UpAxis up, double yaw_deg);
 
 /// Irradiance (W-like units, integral of radiance * cos) on a surface with `normal_probe`, summed exactly over the texels above
 /// it.

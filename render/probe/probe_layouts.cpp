@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "catchlight/error.hpp"
+#include "catchlight/util/text.hpp"
 
 namespace catchlight::render {
 namespace {
@@ -12,12 +13,6 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr glm::dvec3 kX(1, 0, 0), kY(0, 1, 0), kZ(0, 0, 1);
 constexpr int kMaxSide = 32768;
-
-constexpr std::array<std::pair<ProbeLayout, const char*>, 5> kNames{{{ProbeLayout::latlong, "latlong"},
-                                                                     {ProbeLayout::angular, "angular"},
-                                                                     {ProbeLayout::mirror_ball, "mirror-ball"},
-                                                                     {ProbeLayout::cube_cross, "cube-cross"},
-                                                                     {ProbeLayout::cube, "cube"}}};
 
 // ImfEnvmap.h: each face as seen from the inside, stacked.
 const CubeFaces kOpenExrFaces{{{kX, kZ, -kY, 0, 0},
@@ -83,16 +78,8 @@ std::optional<glm::dvec3> cube_direction(ProbeLayout layout, int width, double x
 }  // namespace
 
 ProbeLayout probe_layout_from_name(const std::string& name) {
-  std::string known;
-  for (const auto& [layout, layout_name] : kNames) {
-    if (name == layout_name) return layout;
-    known += (known.empty() ? "" : ", ") + std::string(layout_name);
-  }
-  throw Error("unknown probe layout \"" + name + "\": expected one of " + known);
-}
-
-std::string name_of(ProbeLayout layout) {
-  return kNames[static_cast<std::size_t>(layout)].second;
+  if (const auto layout = value_named<ProbeLayout>(name)) return *layout;
+  throw Error("unknown probe layout \"" + name + "\": expected " + quoted_list(name_list<ProbeLayout>()));
 }
 
 const CubeFaces& gl_cube_faces() {

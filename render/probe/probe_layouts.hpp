@@ -10,6 +10,8 @@
 #include <optional>
 #include <string>
 
+#include "catchlight/util/enum_names.hpp"
+
 namespace catchlight::render {
 
 /// OpenEXR's layouts have their outermost texel centres on +-180 degrees, the poles and the cube's edges; the others have texel
@@ -21,10 +23,12 @@ enum class ProbeLayout {
   cube_cross,   ///< HDRShop's and cmft's 3 x 4 faces, OpenGL's orientation: +y; -x +z +x; -y; -z turned by half a turn
   cube,         ///< ImfEnvmap.h: faces stacked +x -x +y -y +z -z
 };
+constexpr auto names_of(ProbeLayout) {
+  return std::array{"latlong", "angular", "mirror-ball", "cube-cross", "cube"};
+}
 
-/// "latlong", "angular", "mirror-ball", "cube-cross", "cube"; throws Error naming them for anything else.
+/// Throws Error naming the layouts there are for anything else.
 ProbeLayout probe_layout_from_name(const std::string& name);
-std::string name_of(ProbeLayout layout);
 
 /// Probe-frame direction (length 1) of image position (x, y) in texels, texel centres at integers; empty outside the layout's
 /// valid area.

@@ -32,7 +32,7 @@ inline CameraModel centred_camera() {
   return camera;
 }
 
-inline Shot shot(const char* up = "z") {
+inline Shot shot(render::UpAxis up = render::UpAxis::z) {
   Shot shot{centred_camera(), {}, false};
   shot.scene.probe.up = up;
   return shot;

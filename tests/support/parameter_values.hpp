@@ -19,6 +19,7 @@ inline std::string other_value(const app::Parameter& parameter) {
   if (std::holds_alternative<app::SwitchKind>(parameter.kind)) return "false";
   if (std::holds_alternative<app::VectorKind>(parameter.kind)) return "0.25,0.5,0.75";
   if (const auto* choice = std::get_if<app::ChoiceKind>(&parameter.kind)) return choice->choices.back();
+  if (const auto* word = std::get_if<app::WordKind>(&parameter.kind)) return word->choices.back();
   return "/somewhere/file";
 }
 

@@ -20,7 +20,7 @@ struct MergeRequest {
   std::optional<double> fov_deg;  ///< horizontal, where there is no camera file; neither: rays are parallel
 
   std::optional<TagTarget> tag;  ///< seen beside the ball in every view; needs a camera
-  char up = 'z';
+  render::UpAxis up = render::UpAxis::z;
   double yaw_deg = 0;                                ///< of the probe on the tag, as the scene says
   std::vector<double> view_yaw_deg, view_pitch_deg;  ///< instead of a tag; one a view, or empty: 0
 

@@ -20,7 +20,7 @@ const cv::Scalar kInk(255, 255, 255), kShade(0, 0, 0), kMark(60, 200, 255), kPap
 class Painter {
  public:
   Painter(const render::Probe& probe, double yaw_deg, double ev)
-      : probe_(probe), statistics_(measure_probe(probe, 1)), tag_from_probe_(render::tag_from_probe('z', yaw_deg)) {
+      : probe_(probe), statistics_(measure_probe(probe, 1)), tag_from_probe_(render::tag_from_probe(render::UpAxis::z, yaw_deg)) {
     constexpr double kMidGrey = 0.18;
     exposure_ = statistics_.log_average > 0 ? kMidGrey / statistics_.log_average * std::exp2(ev) : 1;
     light_ = render::project_to_sh(probe, 3);

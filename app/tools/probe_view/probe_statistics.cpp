@@ -70,7 +70,7 @@ ProbeStatistics measure_probe(const render::Probe& probe, int bands) {
 }
 
 Image mirror_ball_preview(const render::Probe& probe, double yaw_deg, int size_px) {
-  const glm::dmat3 probe_from_tag = glm::transpose(render::tag_from_probe('z', yaw_deg));
+  const glm::dmat3 probe_from_tag = glm::transpose(render::tag_from_probe(render::UpAxis::z, yaw_deg));
   const double step = 2.0 / (size_px * kSamplesAcross);
   const auto ball_radiance = [&](int column, int row) -> glm::vec4 {
     const double right = (column + 0.5) * step - 1, up = 1 - (row + 0.5) * step;

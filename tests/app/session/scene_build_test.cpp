@@ -79,7 +79,7 @@ TEST_F(SceneBuild, UpSaysWhichTagAxisTheSkyIsAbove) {
   const BuiltScene table = build();
   EXPECT_GT(light_at(table, 0), 0.3);
   EXPECT_NEAR(light_at(table, -1), 0, 1e-3);
-  scene_.probe.up = "y";
+  scene_.probe.up = render::UpAxis::y;
   const BuiltScene wall = build();
   EXPECT_GT(light_at(wall, -1), 0.3);
   EXPECT_NEAR(light_at(wall, 0), 0, 1e-3);
@@ -88,7 +88,7 @@ TEST_F(SceneBuild, UpSaysWhichTagAxisTheSkyIsAbove) {
 /// A sky above the camera lights a tag that lies under it and not one that is held upside down.
 TEST_F(SceneBuild, LightFixedToTheCameraTurnsAgainstTheTag) {
   write_probe([](const glm::dvec3& d) { return glm::vec3(d.y > 0.5 ? 1.0f : 0.0f); });
-  scene_.probe.fixed_to = "camera";
+  scene_.probe.fixed_to = LightFrame::camera;
   const BuiltScene built = build();
   RigidTransform camera_from_tag;  // tag +z to camera -y, which is up
   camera_from_tag.rotation = glm::dmat3(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0));
@@ -102,7 +102,7 @@ TEST_F(SceneBuild, LightFixedToTheCameraTurnsAgainstTheTag) {
 TEST_F(SceneBuild, LightFixedToTheCameraAgreesWithTheTagsInACommonPose) {
   write_probe([](const glm::dvec3& d) { return glm::vec3(1.0 + 0.5 * d.x + 0.3 * d.y, 1.0 - 0.4 * d.z, 1.0); });
   const BuiltScene still = build();
-  scene_.probe.fixed_to = "camera";
+  scene_.probe.fixed_to = LightFrame::camera;
   const BuiltScene carried = build();
   // The camera looks horizontally along tag +y, as the probe's does along probe -z: x right, z = tag +y, y = tag -z.
   RigidTransform camera_from_tag;
@@ -156,7 +156,7 @@ TEST_F(SceneBuild, SecondBuildTakesTheTransferFromTheCache) {
 
 TEST_F(SceneBuild, WithoutReceiverThereIsNoShadow) {
   EXPECT_EQ(build().scene.transfer.grid.columns, 4);
-  scene_.receiver.plane = "none";
+  scene_.receiver.plane = ReceiverPlane::none;
   EXPECT_EQ(build().scene.transfer.grid.columns, 0);
 }
 

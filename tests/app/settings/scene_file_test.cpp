@@ -56,7 +56,7 @@ motion_blur = "auto"
   EXPECT_EQ(scene.objects[0].mesh, "object.glb");
   EXPECT_EQ(scene.objects[0].translation_m, glm::dvec3(0, 0.5, 1));
   EXPECT_EQ(scene.objects[0].scale, 2);
-  EXPECT_EQ(scene.receiver.plane, "none");
+  EXPECT_EQ(scene.receiver.plane, ReceiverPlane::none);
   EXPECT_EQ(scene.receiver.albedo, glm::dvec3(0.1, 0.2, 0.3));
   EXPECT_FALSE(scene.glare.enabled);
   EXPECT_EQ(scene.glare.streak_directions, 6);

@@ -274,7 +274,7 @@ struct BallBesideTag : ProbeMerge {
     scene.tag = tag;
     scene.radius_m = 0.075;
     scene.centre_camera_m = *scene.camera_from_tag * (0.16 * right + glm::dvec3(0, 0, 0.1));
-    scene.probe_from_camera = glm::transpose(render::tag_from_probe('z', 0)) * glm::transpose(camera_from_tag);
+    scene.probe_from_camera = glm::transpose(render::tag_from_probe(render::UpAxis::z, 0)) * glm::transpose(camera_from_tag);
     scene.photographer_rad = 0.2;
     return tests::write_bracket(tests::photograph(scene), times, 0.7, folder.path(name));
   }

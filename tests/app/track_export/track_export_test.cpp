@@ -104,7 +104,7 @@ TEST(ChanTrack, SeesTheTagWhereTheCameraSawIt) {
 
 TEST(ChanTrack, OnAWallTheTagsAxesAreTheWorlds) {
   const std::vector<TrackRow> rows{row_of(0, looking_at_tag({0.1, 0.2, 0.5}, 20))};
-  const auto lines = numbers_of(written("path.chan", rows, shot("y")));
+  const auto lines = numbers_of(written("path.chan", rows, shot(render::UpAxis::y)));
   EXPECT_LT(glm::distance(nuke_px(lines.at(0), kAbove_m), seen_px(rows[0], kAbove_m)), kText_px);
 }
 

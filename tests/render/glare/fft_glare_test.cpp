@@ -22,7 +22,7 @@ const CameraModel kCamera{
 
 GlareSettings of_aperture(const std::string& name, double strength = 1) {
   GlareSettings settings;
-  settings.method = "fft";
+  settings.method = GlareMethod::fft;
   settings.aperture = name;
   settings.aperture_mm = 0.2;
   settings.aperture_strength = strength;

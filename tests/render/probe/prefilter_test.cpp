@@ -72,7 +72,7 @@ TEST(Prefilter, KeepsTheMeanRadianceOfEveryLevelEvenWithASun) {
   Probe probe = latlong_of(256, [](const glm::dvec3& d) { return glm::dvec3(1 + 0.5 * d.y, 1, 1); });
   probe.image.pixel(60, 40)[1] = 5000;  // of one texel
   const glm::dvec3 mean = glm::dvec3(project_to_sh(probe, 1)[0]) / (2 * std::sqrt(kPi));
-  const ReflectionMap map = prefilter_reflections(probe, tag_from_probe('z', 20));
+  const ReflectionMap map = prefilter_reflections(probe, tag_from_probe(UpAxis::z, 20));
   for (std::size_t k = 0; k < map.levels.size(); ++k) {
     EXPECT_NEAR(mean_of(map.levels[k]).x / mean.x, 1, 0.01) << "level " << k;
     EXPECT_NEAR(mean_of(map.levels[k]).y / mean.y, 1, 0.01) << "level " << k;
@@ -82,7 +82,7 @@ TEST(Prefilter, KeepsTheMeanRadianceOfEveryLevelEvenWithASun) {
 TEST(Prefilter, MirrorLevelLooksUpTheProbe) {
   const auto sky = [](const glm::dvec3& d) { return glm::dvec3(1 + d.x, 1 + d.y, 1 + d.z * d.x); };
   const Probe probe = latlong_of(256, sky);
-  const glm::dmat3 tag_from = tag_from_probe('z', 30);
+  const glm::dmat3 tag_from = tag_from_probe(UpAxis::z, 30);
   const ReflectionMap map = prefilter_reflections(probe, tag_from);
   const Image& level = map.levels.front();
   const int size = level.width;

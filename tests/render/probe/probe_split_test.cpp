@@ -224,7 +224,7 @@ TEST(ProbeSplit, SamplesLightASurfaceAsTheLampDoes) {
 
 TEST(ProbeSplit, SamplesFollowTheProbesTurn) {
   const SplitProbe split = split_lights(sky_with({{towards(40, 10), 0.1, glm::vec3(10)}}), {});
-  const glm::dmat3 rotation = tag_from_probe('z', 25);
+  const glm::dmat3 rotation = tag_from_probe(UpAxis::z, 25);
   const std::vector<LightSample> turned = samples_of(split, rotation), still = samples_of(split, glm::dmat3(1.0));
   for (std::size_t i = 0; i < still.size(); ++i)
     EXPECT_LT(glm::length(turned[i].direction - rotation * still[i].direction), 1e-12);

@@ -344,7 +344,7 @@ TEST(ProbeConversion, RefusesAWidthThatCannotBe) {
 }
 
 TEST(TagFromProbe, PutsProbeUpWhereTheTagsUpIs) {
-  const glm::dmat3 table = tag_from_probe('z', 0), wall = tag_from_probe('y', 0);
+  const glm::dmat3 table = tag_from_probe(UpAxis::z, 0), wall = tag_from_probe(UpAxis::y, 0);
   EXPECT_LT(glm::distance(table * glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)), 1e-15);
   EXPECT_LT(glm::distance(table * glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0)), 1e-15);
   EXPECT_LT(glm::distance(table * glm::dvec3(1, 0, 0), glm::dvec3(1, 0, 0)), 1e-15);
@@ -352,10 +352,10 @@ TEST(TagFromProbe, PutsProbeUpWhereTheTagsUpIs) {
 }
 
 TEST(TagFromProbe, YawTurnsCounterClockwiseSeenFromAbove) {
-  EXPECT_LT(glm::distance(tag_from_probe('z', 90) * glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)), 1e-15);
-  EXPECT_LT(glm::distance(tag_from_probe('y', 90) * glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0)), 1e-15);
-  EXPECT_NEAR(glm::determinant(tag_from_probe('z', 33)), 1, 1e-15);
-  EXPECT_THROW(tag_from_probe('x', 0), Error);
+  EXPECT_LT(glm::distance(tag_from_probe(UpAxis::z, 90) * glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)), 1e-15);
+  EXPECT_LT(glm::distance(tag_from_probe(UpAxis::y, 90) * glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0)), 1e-15);
+  EXPECT_NEAR(glm::determinant(tag_from_probe(UpAxis::z, 33)), 1, 1e-15);
+  EXPECT_EQ(value_named<UpAxis>("x"), std::nullopt);
 }
 
 TEST(ProbeIrradiance, OfAConstantProbeIsPi) {

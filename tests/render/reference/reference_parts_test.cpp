@@ -38,7 +38,7 @@ glm::dvec3 uniform_direction(const glm::dvec2& square) {
 
 TEST(ReferenceProbe, IsTheSameFunctionAsTheProductsLookup) {
   const Probe probe = varied_probe(32);
-  const glm::dmat3 tag_from_probe = render::tag_from_probe('z', 30);
+  const glm::dmat3 tag_from_probe = render::tag_from_probe(UpAxis::z, 30);
   const ProbeSampler sampler(probe, tag_from_probe, false);
   for (int k = 0; k < 500; ++k) {
     const glm::dvec3 direction = uniform_direction(scrambled_sobol(k, 3));
@@ -52,7 +52,7 @@ TEST(ReferenceProbe, DensityIntegratesToOne) {
   Probe probe = varied_probe(32);
   std::fill_n(probe.image.pixel(16, 8), 3, 1.0f);
   for (const bool only_above : {false, true}) {
-    const ProbeSampler sampler(probe, tag_from_probe('z', 0), only_above);
+    const ProbeSampler sampler(probe, tag_from_probe(UpAxis::z, 0), only_above);
     double sum = 0;
     constexpr int kCount = 1 << 16;
     for (int k = 0; k < kCount; ++k) sum += sampler.density(uniform_direction(scrambled_sobol(k, 1))) * 4 * kPi / kCount;
@@ -61,7 +61,7 @@ TEST(ReferenceProbe, DensityIntegratesToOne) {
 }
 
 TEST(ReferenceProbe, SamplesHaveTheDensityAndRadianceOfTheirDirection) {
-  const ProbeSampler sampler(varied_probe(32), tag_from_probe('z', 77), true);
+  const ProbeSampler sampler(varied_probe(32), tag_from_probe(UpAxis::z, 77), true);
   for (int k = 0; k < 2000; ++k) {
     const auto light = sampler.sample(scrambled_sobol(k, 5));
     ASSERT_TRUE(light);
@@ -74,7 +74,7 @@ TEST(ReferenceProbe, SamplesHaveTheDensityAndRadianceOfTheirDirection) {
 
 TEST(ReferenceProbe, SampledIrradianceIsTheExactOne) {
   const Probe probe = varied_probe(64);
-  const ProbeSampler sampler(probe, tag_from_probe('z', 0), false);
+  const ProbeSampler sampler(probe, tag_from_probe(UpAxis::z, 0), false);
   for (const glm::dvec3& normal : {glm::dvec3(0, 0, 1), glm::dvec3(0.6, 0, 0.8), glm::dvec3(0, -0.8, 0.6)}) {
     glm::dvec3 sum(0);
     constexpr int kCount = 1 << 14;
@@ -83,7 +83,7 @@ TEST(ReferenceProbe, SampledIrradianceIsTheExactOne) {
       sum += light->radiance * std::max(0.0, glm::dot(light->direction_tag, normal)) / (light->density * kCount);
     }
     const glm::dvec3 by_cells = sampler.irradiance(normal);
-    const glm::dvec3 by_texels = irradiance(probe, glm::transpose(tag_from_probe('z', 0)) * normal);
+    const glm::dvec3 by_texels = irradiance(probe, glm::transpose(tag_from_probe(UpAxis::z, 0)) * normal);
     for (int c = 0; c < 3; ++c) {
       EXPECT_NEAR(sum[c] / by_cells[c], 1, 0.002);
       EXPECT_NEAR(by_cells[c] / by_texels[c], 1, 0.003) << "another sum over the same texels";

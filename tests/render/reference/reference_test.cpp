@@ -16,8 +16,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// Probe frame = tag frame turned as on a table, as tag_from_probe('z', 0) has it.
-const glm::dmat3 kOnTable = tag_from_probe('z', 0);
+/// Probe frame = tag frame turned as on a table, as tag_from_probe(UpAxis::z, 0) has it.
+const glm::dmat3 kOnTable = tag_from_probe(UpAxis::z, 0);
 
 Probe constant_sky(const glm::vec3& radiance, int height = 16) {
   Probe probe{Image(2 * height, height), ProbeLayout::latlong};

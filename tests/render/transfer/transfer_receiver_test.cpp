@@ -78,7 +78,7 @@ TEST(OnATable, IsSeenWhereItIsNotWhereTheProbeSawIt) {
       for (int c = 0; c < 3; ++c) probe.image.pixel(x, y)[c] = radiance;
     }
   }
-  const glm::dmat3 rotation = tag_from_probe('z', 0);
+  const glm::dmat3 rotation = tag_from_probe(UpAxis::z, 0);
   const auto albedo = albedo_from_probe(probe, rotation, {0, 0, 0.1f});
   ASSERT_TRUE(albedo);
   Mesh speck;
@@ -133,22 +133,22 @@ Probe half_and_half(float above, float below) {
 
 TEST(ReceiverAlbedo, IsPiLOverE) {
   for (const float scale : {1.0f, 1000.0f, 1e-4f}) {
-    const auto albedo = albedo_from_probe(half_and_half(2 * scale, 0.6f * scale), tag_from_probe('z', 0), {0, 0, 0.1f});
+    const auto albedo = albedo_from_probe(half_and_half(2 * scale, 0.6f * scale), tag_from_probe(UpAxis::z, 0), {0, 0, 0.1f});
     ASSERT_TRUE(albedo);
     EXPECT_NEAR(albedo->towards({0.3f, 0.2f, -1}).g, 0.3, 2e-3) << scale;
   }
 }
 
 TEST(ReceiverAlbedo, LooksAtAPointFromWhereTheProbeWas) {
-  const auto albedo = albedo_from_probe(half_and_half(2, 0.6f), tag_from_probe('z', 0), {0.5f, 0, 0.1f});
+  const auto albedo = albedo_from_probe(half_and_half(2, 0.6f), tag_from_probe(UpAxis::z, 0), {0.5f, 0, 0.1f});
   EXPECT_EQ(albedo->at({0.9f, 0.3f}), albedo->towards({0.4f, 0.3f, -0.1f}));
 }
 
 TEST(ReceiverAlbedo, IsUnknownWhereThePlaneShinesOrIsDark) {
-  EXPECT_FALSE(albedo_from_probe(half_and_half(1, 3), tag_from_probe('z', 0), {0, 0, 0.1f})) << "light from below";
-  EXPECT_FALSE(albedo_from_probe(half_and_half(0, 1), tag_from_probe('z', 0), {0, 0, 0.1f})) << "only from below";
-  EXPECT_FALSE(albedo_from_probe(half_and_half(1, 1), tag_from_probe('z', 0), {0, 0, 0})) << "the probe lies on the plane";
-  const auto black = albedo_from_probe(half_and_half(0, 0), tag_from_probe('z', 0), {0, 0, 0.1f});
+  EXPECT_FALSE(albedo_from_probe(half_and_half(1, 3), tag_from_probe(UpAxis::z, 0), {0, 0, 0.1f})) << "light from below";
+  EXPECT_FALSE(albedo_from_probe(half_and_half(0, 1), tag_from_probe(UpAxis::z, 0), {0, 0, 0.1f})) << "only from below";
+  EXPECT_FALSE(albedo_from_probe(half_and_half(1, 1), tag_from_probe(UpAxis::z, 0), {0, 0, 0})) << "the probe lies on the plane";
+  const auto black = albedo_from_probe(half_and_half(0, 0), tag_from_probe(UpAxis::z, 0), {0, 0, 0.1f});
   ASSERT_TRUE(black);
   EXPECT_EQ(black->towards({0, 0, -1}), glm::vec3(0));
 }
@@ -156,7 +156,7 @@ TEST(ReceiverAlbedo, IsUnknownWhereThePlaneShinesOrIsDark) {
 TEST(ReceiverAlbedo, OfALampBelowTheHorizonIsOneAtMost) {
   Probe probe = half_and_half(1, 0.2f);
   for (int c = 0; c < 3; ++c) probe.image.pixel(10, 34)[c] = 500;
-  const auto albedo = albedo_from_probe(probe, tag_from_probe('z', 0), {0, 0, 0.1f});
+  const auto albedo = albedo_from_probe(probe, tag_from_probe(UpAxis::z, 0), {0, 0, 0.1f});
   ASSERT_TRUE(albedo);
   for (const float value : albedo->image.data) EXPECT_LE(value, 1);
 }

@@ -29,7 +29,7 @@ RenderScene lamp(float radiance) {
 
 CompositorSettings with_blades() {
   CompositorSettings settings;
-  settings.glare.method = "fft";
+  settings.glare.method = GlareMethod::fft;
   settings.glare.aperture = "blades:6";
   settings.glare.aperture_mm = 0.2;
   return settings;
