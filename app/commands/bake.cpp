@@ -36,7 +36,7 @@ void bake(const Arguments& arguments, Log& log) {
 
 void set_up_bake(CLI::App& command, Context& context) {
   const auto arguments = std::make_shared<Arguments>();
-  add_recording_options(command, arguments->location, arguments->overrides);
+  add_recording_options(command, context, arguments->location, arguments->overrides);
   command.callback([arguments, &context] { bake(*arguments, context.log); });
 }
 

@@ -1,4 +1,6 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <set>
 #include <vector>
 
 #include "app/commands/commands.hpp"
@@ -50,6 +52,18 @@ std::string unexpected_argument(const CLI::App& app) {
   return "unexpected argument '" + argument + "'";
 }
 
+/// The parameters that options name together with a number, such as `object[1].mesh`. There are as many as a scene has objects,
+/// so only those that are used become options.
+std::set<std::string> numbered_keys(const std::vector<std::string>& arguments) {
+  std::set<std::string> keys;
+  for (const std::string& argument : arguments) {
+    if (!argument.starts_with("--")) continue;
+    const std::string key = argument.substr(2, argument.find('=') - 2);
+    if (names_an_element(key)) keys.insert(key);
+  }
+  return keys;
+}
+
 int report_parse_error(const CLI::App& app, const CLI::ParseError& error, Log& log) {
   if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
   // What is left over comes first: a mistyped command or option is often why something else is missing.
@@ -65,7 +79,7 @@ int report_parse_error(const CLI::App& app, const CLI::ParseError& error, Log& l
 
 }  // namespace
 
-void add_recording_options(CLI::App& command, std::string& location, RecordingOverrides& overrides) {
+void add_recording_options(CLI::App& command, const Context& context, std::string& location, RecordingOverrides& overrides) {
   command
       .add_option("RECORDING", location,
                   "Folder with footage, camera.yaml and scene.toml; or a video, a %04d pattern, a camera, a stream")
@@ -76,14 +90,16 @@ void add_recording_options(CLI::App& command, std::string& location, RecordingOv
       ->type_name("DEGREES");
   command.add_flag("--strict", overrides.strict,
                    "Refuse a probe with NaN, infinite or negative texels instead of taking them for 0");
-  for (const Parameter& parameter : parameters()) {
-    const auto note = [&overrides, key = parameter.key](const std::string& text) {
-      overrides.parameters.emplace_back(key, text);
-    };
-    command.add_option_function<std::string>("--" + parameter.key, note, parameter.help)
+  const auto add = [&](const std::string& key) {
+    const auto note = [&overrides, key](const std::string& text) { overrides.parameters.emplace_back(key, text); };
+    return command.add_option_function<std::string>("--" + key, note);
+  };
+  for (const Parameter& parameter : parameters())
+    add(parameter.key)
+        ->description(parameter.help)
         ->type_name(parameter.unit.empty() ? "VALUE" : parameter.unit)
         ->group("Parameters of the scene (before what the scene file says)");
-  }
+  for (const std::string& key : numbered_keys(context.arguments)) add(key)->group("");
 }
 
 void add_shader_option(CLI::App& command, RecordingOverrides& overrides) {
@@ -96,6 +112,7 @@ void add_shader_option(CLI::App& command, RecordingOverrides& overrides) {
 
 int run_command_line(std::span<const Command> commands, int argc, const char* const* argv) {
   Context context;
+  context.arguments.assign(argv + std::min(argc, 1), argv + argc);
   CLI::App app{kDescription, "catchlight"};
   app.footer(kFooter);
   app.set_version_flag("--version", "catchlight " CATCHLIGHT_VERSION);

@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "app/session/recording.hpp"
 #include "app/support/log.hpp"
@@ -16,7 +17,8 @@ namespace catchlight::app {
 /// What commands share; lives as long as the program.
 struct Context {
   Log log;
-  int exit_code = 0;  ///< for a command that ran to its end and still has to report failure
+  int exit_code = 0;                   ///< for a command that ran to its end and still has to report failure
+  std::vector<std::string> arguments;  ///< the whole command line
 };
 
 struct Command {
@@ -37,8 +39,9 @@ void set_up_replay(CLI::App& command, Context& context);
 void set_up_tag(CLI::App& command, Context& context);
 void set_up_track(CLI::App& command, Context& context);
 
-/// The positional RECORDING, --scene, --camera, --fov, and one option for every parameter. Both must live as long as `command`.
-void add_recording_options(CLI::App& command, std::string& location, RecordingOverrides& overrides);
+/// The positional RECORDING, --scene, --camera, --fov, and one option for every parameter, with a number too where the arguments
+/// give one (`--object[1].mesh`). `location` and `overrides` must live as long as `command`.
+void add_recording_options(CLI::App& command, const Context& context, std::string& location, RecordingOverrides& overrides);
 
 /// Adds --shader-dir, for commands that draw.
 void add_shader_option(CLI::App& command, RecordingOverrides& overrides);

@@ -76,7 +76,7 @@ void overlay(const Options& options, Context& context) {
 
 void set_up_overlay(CLI::App& command, Context& context) {
   const auto options = std::make_shared<Options>();
-  add_recording_options(command, options->recording, options->overrides);
+  add_recording_options(command, context, options->recording, options->overrides);
   add_shader_option(command, options->overrides);
   command
       .add_option("-o,--output", options->output,

@@ -101,7 +101,7 @@ void trace(const Options& options, Context& context) {
 
 void set_up_reference(CLI::App& command, Context& context) {
   const auto options = std::make_shared<Options>();
-  add_recording_options(command, options->recording, options->overrides);
+  add_recording_options(command, context, options->recording, options->overrides);
   command.add_option("--frame", options->frame, "the frame, numbered from 0 (image sequences: by its own number)")->required();
   command.add_option("-o,--output", options->output, "picture.png or .exr; left out: reference.NNNN.png")->type_name("FILE");
   command.add_flag("-y,--overwrite", options->overwrite, "replace an existing output");

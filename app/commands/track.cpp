@@ -56,7 +56,7 @@ void track(const Options& options, Context& context) {
 
 void set_up_track(CLI::App& command, Context& context) {
   const auto options = std::make_shared<Options>();
-  add_recording_options(command, options->recording, options->overrides);
+  add_recording_options(command, context, options->recording, options->overrides);
   command
       .add_option(
           "-o,--output", options->output,

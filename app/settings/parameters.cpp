@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "catchlight/error.hpp"
 #include "catchlight/util/text.hpp"
@@ -120,39 +119,6 @@ const SceneSettings& defaults() {
   return settings;
 }
 
-std::optional<ParameterValue> vector_from_text(const std::string& text) {
-  const std::vector<std::string> fields = split(text, ',');
-  if (fields.size() != 3) return std::nullopt;
-  glm::dvec3 v;
-  for (int i = 0; i < 3; ++i) {
-    const std::optional<double> component = real_from_text(fields[static_cast<std::size_t>(i)]);
-    if (!component) return std::nullopt;
-    v[i] = *component;
-  }
-  return v;
-}
-
-/// The value that `text` stands for under this kind; text that stands for none is left as text, for set_parameter to refuse.
-ParameterValue value_from_text(const Parameter& parameter, const std::string& text) {
-  const auto flag = [&]() -> std::optional<ParameterValue> {
-    if (text == "true") return true;
-    if (text == "false") return false;
-    return std::nullopt;
-  };
-  const auto parsed =
-      std::visit(Overloaded{[&](const RealKind&) -> std::optional<ParameterValue> { return real_from_text(text); },
-                            [&](const IntegerKind&) -> std::optional<ParameterValue> { return integer_from_text(text); },
-                            [&](const FlagKind&) { return flag(); }, [&](const SwitchKind&) { return flag(); },
-                            [&](const VectorKind&) { return vector_from_text(text); },
-                            [&](const PathKind& kind) -> std::optional<ParameterValue> {
-                              if (text.empty() || kind.is_word(text)) return std::nullopt;
-                              return std::filesystem::absolute(text).string();
-                            },
-                            [](const auto&) -> std::optional<ParameterValue> { return std::nullopt; }},
-                 parameter.kind);
-  return parsed.value_or(text);
-}
-
 }  // namespace
 
 bool PathKind::is_word(const std::string& text) const {
@@ -173,27 +139,6 @@ void set_parameter(SceneSettings& settings, const Parameter& parameter, const Pa
   if (!std::visit(Store{settings, value, index}, parameter.kind))
     throw Error(parameter.key + " is " + shown(value) + "; expected " + expected_text(parameter));
   settings.by_hand.insert(parameter.key);
-}
-
-void set_parameter_from_text(SceneSettings& settings, const std::string& key, const std::string& text) {
-  const Parameter* parameter = find_parameter(key);
-  if (!parameter) throw UsageError("--" + key + ": there is no such parameter; `catchlight params` lists them");
-  if (is_of_bundle(*parameter) && settings.tag.bundle.size() > 1)
-    throw UsageError("--" + key + ": the board has " + std::to_string(settings.tag.bundle.size()) +
-                     " further tags; change the one you mean in the scene file");
-  if (is_of_object(*parameter)) {
-    if (settings.objects.size() > 1)
-      throw UsageError("--" + key + ": the scene has " + std::to_string(settings.objects.size()) +
-                       " objects; change the one you mean in the scene file");
-    if (key.starts_with("object.tag_from_object.") && !settings.objects.empty() && settings.objects.back().matrix)
-      throw UsageError("--" + key +
-                       ": the scene file places the object by a matrix; give it translation_m, rotation_deg and scale there");
-  }
-  try {
-    set_parameter(settings, *parameter, value_from_text(*parameter, text));
-  } catch (const Error& error) {
-    throw UsageError(std::string("--") + error.what());
-  }
 }
 
 std::string parameter_text(const SceneSettings& settings, const Parameter& parameter, std::size_t index) {

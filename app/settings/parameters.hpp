@@ -37,9 +37,13 @@ using ParameterValue = std::variant<bool, std::int64_t, double, std::string, glm
 /// where. `index` says which object or further tag is meant; the first one is made where there is none.
 void set_parameter(SceneSettings& settings, const Parameter& parameter, const ParameterValue& value, std::size_t index = 0);
 
-/// set_parameter from text as an option gives it: `0.5`, `true`, `auto`, `0.8,0.8,0.8`. Throws UsageError naming `--KEY`: unknown
-/// key, or what set_parameter refuses.
+/// set_parameter from text as an option gives it: `0.5`, `true`, `auto`, `0.8,0.8,0.8`. A key such as `object[1].mesh` says which
+/// object or further tag is meant; without the number it means the only one. Throws UsageError naming `--KEY`: an unknown key,
+/// one that leaves open which is meant, or what set_parameter refuses.
 void set_parameter_from_text(SceneSettings& settings, const std::string& key, const std::string& text);
+
+/// Whether the key is a row's with a number, such as `object[1].mesh`.
+bool names_an_element(const std::string& key);
 
 /// The present value, as set_parameter_from_text reads it; the default where there is no such object or further tag.
 std::string parameter_text(const SceneSettings& settings, const Parameter& parameter, std::size_t index = 0);

@@ -248,6 +248,20 @@ TEST_F(OverlayCommand, MeshWithoutTrianglesIsRefused) {
   expect_refused(overlay(copy, out_, {"--object.mesh", copy + "/empty.obj"}), out_, {"empty.obj", "triangle"});
 }
 
+TEST_F(OverlayCommand, ObjectsAreNamedByTheirNumbers) {
+  const std::string copy = copied_recording(1);
+  std::ofstream(copy + "/scene.toml", std::ios::app) << "\n[[object]]\nmesh = \"object.glb\"\n";
+  for (const std::string& option : {std::string("--object[1].mesh=/nowhere.obj"), std::string("--object[0].mesh=/nowhere.obj")})
+    expect_refused(overlay(copy, out_, {option}), out_, {"/nowhere.obj"});
+  expect_refused(overlay(copy, out_, {"--object[1].tag_from_object.scale", "0"}), out_,
+                 {"--object[1].tag_from_object.scale is 0; expected"}, 2);
+  expect_refused(overlay(copy, out_, {"--object.mesh", "/nowhere.obj"}), out_,
+                 {"the scene has 2 objects", "--object[0].mesh to --object[1].mesh"}, 2);
+  expect_refused(overlay(copy, out_, {"--object[2].mesh", "/nowhere.obj"}), out_, {"the scene has 2 objects"}, 2);
+  expect_refused(overlay(copy, out_, {"--object[1].mash", "/nowhere.obj"}), out_,
+                 {"unknown option --object[1].mash; did you mean --object.mesh"}, 2);
+}
+
 TEST_F(OverlayCommand, MeshWithoutNormalsIsDrawn) {
   const std::string copy = copied_recording(1);
   std::ofstream(copy + "/bare.obj")

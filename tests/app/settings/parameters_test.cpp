@@ -150,8 +150,47 @@ TEST(ParameterFromText, ObjectKeysMakeTheFirstObjectAndRefuseToChooseAmongSevera
   ASSERT_EQ(settings.objects.size(), 1u);
   EXPECT_EQ(settings.objects[0].scale, 2);
   settings.objects.emplace_back();
-  EXPECT_EQ(message_of<UsageError>([&] { set_parameter_from_text(settings, "object.mesh", "/b.glb"); }),
-            "--object.mesh: the scene has 2 objects; change the one you mean in the scene file");
+  EXPECT_EQ(
+      message_of<UsageError>([&] { set_parameter_from_text(settings, "object.mesh", "/b.glb"); }),
+      "--object.mesh: the scene has 2 objects; change the one you mean in the scene file, or by its number: --object[0].mesh "
+      "to --object[1].mesh");
+}
+
+TEST(ParameterFromText, ANumberSaysWhichObjectOrFurtherTag) {
+  SceneSettings settings;
+  settings.objects.resize(2);
+  settings.tag.bundle.resize(3);
+  set_parameter_from_text(settings, "object[1].tag_from_object.scale", "2");
+  set_parameter_from_text(settings, "tag.bundle[2].tag_from_this.translation_m", "0.1,0,0");
+  EXPECT_EQ(settings.objects[0].scale, 1);
+  EXPECT_EQ(settings.objects[1].scale, 2);
+  EXPECT_EQ(settings.tag.bundle[1].translation_m.x, 0);
+  EXPECT_EQ(settings.tag.bundle[2].translation_m.x, 0.1);
+}
+
+TEST(ParameterFromText, NumberZeroIsTheOnlyOne) {
+  SceneSettings settings;
+  set_parameter_from_text(settings, "object[0].mesh", "/a.glb");
+  set_parameter_from_text(settings, "object.tag_from_object.scale", "2");
+  ASSERT_EQ(settings.objects.size(), 1u);
+  EXPECT_EQ(settings.objects[0].mesh, "/a.glb");
+}
+
+TEST(ParameterFromText, ANumberThatNamesNothingIsRefused) {
+  SceneSettings settings;
+  settings.objects.resize(2);
+  settings.tag.bundle.resize(1);
+  const auto refusal = [&](const char* key, const char* text) {
+    return message_of<UsageError>([&] { set_parameter_from_text(settings, key, text); });
+  };
+  EXPECT_EQ(refusal("object[2].mesh", "a.glb"),
+            "--object[2].mesh: the scene has 2 objects, from --object[0].mesh to --object[1].mesh");
+  EXPECT_EQ(refusal("tag.bundle[1].id", "3"), "--tag.bundle[1].id: the board has 1 further tag, which is --tag.bundle[0].id");
+  EXPECT_EQ(refusal("object[1].tag_from_object.scale", "0"),
+            "--object[1].tag_from_object.scale is 0; expected a number from 1e-06 to 1e+06");
+  for (const char* key : {"glare[0].enabled", "object[-1].mesh", "object[x].mesh", "object[].mesh", "object[1.mesh",
+                          "object]1[.mesh", "object.mesh[1]", "tag[1].bundle.id", "object[1].mass"})
+    EXPECT_EQ(refusal(key, "a"), "--" + std::string(key) + ": there is no such parameter; `catchlight params` lists them");
 }
 
 TEST(ParameterFromText, PlacingAnObjectThatAMatrixPlacesIsRefused) {
