@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "app/session/frame_view.hpp"
 #include "catchlight/rigid_transform.hpp"
 #include "catchlight/tag.hpp"
 #include "tracking/camera/blur.hpp"
@@ -65,7 +66,7 @@ tracking::ExposureMatch exposure_match(const CameraModel& camera, const SceneSet
 
 /// Only where the virtual layer follows the footage's exposure does it matter that it could not be read.
 std::optional<std::string> exposure_warning(const tracking::ExposureCounts& counts, const SceneSettings::Exposure& settings) {
-  return settings.mode == ExposureMode::match ? counts.warning() : std::nullopt;
+  return follows_footage(settings.mode) ? counts.warning() : std::nullopt;
 }
 
 class TagTrack : public FrameTrack {

@@ -97,14 +97,18 @@ PlanEntry chroma_entry(Switch wanted, const glm::ivec2& shift) {
 
 }  // namespace
 
-glm::dvec3 exposure_gain(const SceneSettings::Exposure& settings, const glm::dvec3& white,
-                         const glm::dvec3& tag_irradiance_over_pi) {
+bool follows_footage(ExposureMode mode) {
+  return mode != ExposureMode::fixed;
+}
+
+LayerExposure layer_exposure(const SceneSettings::Exposure& settings, const TrackRow& row,
+                             const glm::dvec3& tag_irradiance_over_pi) {
   const double stops = std::exp2(settings.ev);
-  if (settings.mode == ExposureMode::fixed) return glm::dvec3(stops);
-  glm::dvec3 gain(0.0);  // a channel in which the probe is black stays black
+  if (!follows_footage(settings.mode)) return {glm::dvec3(stops), glm::dvec3(0.0)};
+  LayerExposure exposure{glm::dvec3(0.0), row.black};  // a channel in which the probe is black stays black
   for (int c = 0; c < 3; ++c)
-    if (tag_irradiance_over_pi[c] > 1e-12) gain[c] = stops * white[c] / tag_irradiance_over_pi[c];
-  return gain;
+    if (tag_irradiance_over_pi[c] > 1e-12) exposure.gain[c] = stops * row.exposure[c] / tag_irradiance_over_pi[c];
+  return exposure;
 }
 
 double noise_codes(const NoiseModel& noise, const PlateColor& response, double light) {

@@ -10,10 +10,20 @@
 
 namespace catchlight::app {
 
-/// Exposed linear value of one unit of the probe's radiance. `match`: the paper under the probe's own irradiance E must come out
-/// as it did, white / (E/pi); `fixed`: 1. Both times 2^ev.
-glm::dvec3 exposure_gain(const SceneSettings::Exposure& settings, const glm::dvec3& white,
-                         const glm::dvec3& tag_irradiance_over_pi);
+/// Whether the virtual layer is exposed as the footage was, by what the tag shows. `auto` exposes it so as well, before the whole
+/// picture is exposed anew.
+bool follows_footage(ExposureMode mode);
+
+/// Exposed linear value = gain * the probe's radiance + black.
+struct LayerExposure {
+  glm::dvec3 gain{1.0}, black{0.0};
+};
+
+/// The virtual layer's exposure in the row's frame. Where it follows the footage, paper under the probe's own irradiance E comes
+/// out as it did there: gain = white / (E/pi), and the frame's black is added. Else gain is 1 and nothing is added. The gain is
+/// times 2^ev.
+LayerExposure layer_exposure(const SceneSettings::Exposure& settings, const TrackRow& row,
+                             const glm::dvec3& tag_irradiance_over_pi);
 
 /// Luma's standard deviation on a grey of `light`, in 8-bit codes.
 double noise_codes(const NoiseModel& noise, const PlateColor& response, double light);

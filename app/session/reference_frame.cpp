@@ -15,15 +15,9 @@ namespace {
 
 namespace reference = render::reference;
 
-/// Exposed linear value = gain * radiance + black.
-struct Exposure {
-  glm::dvec3 gain, black;
-};
-
-Exposure exposure_of(const reference::ReferenceScene& scene, const SceneSettings& settings, const TrackRow& row) {
+LayerExposure exposure_of(const reference::ReferenceScene& scene, const SceneSettings& settings, const TrackRow& row) {
   const glm::dvec3 on_tag = render::irradiance(scene.probe, glm::transpose(scene.tag_from_probe) * glm::dvec3(0, 0, 1));
-  return {exposure_gain(settings.exposure, row.exposure, on_tag / glm::pi<double>()),
-          settings.exposure.mode == ExposureMode::match ? row.black : glm::dvec3(0)};
+  return layer_exposure(settings.exposure, row, on_tag / glm::pi<double>());
 }
 
 reference::ReferenceScene traced_scene(const SceneSettings& settings, const TrackRow& row, const WarningHandler& warn) {
@@ -39,7 +33,7 @@ reference::ReferenceScene traced_scene(const SceneSettings& settings, const Trac
 }
 
 /// Without the camera: what its noise made darker than black is black.
-Image radiance_of(const Image& exposed_linear, const Exposure& exposure) {
+Image radiance_of(const Image& exposed_linear, const LayerExposure& exposure) {
   Image radiance = exposed_linear;
   for (std::size_t i = 0; i < radiance.data.size(); ++i) {
     const int c = static_cast<int>(i % 3);
@@ -59,7 +53,7 @@ Image trace_reference_frame(const Frame& frame, const TrackRow& row, const Camer
   plate.data = linear_rgb(frame.rgb({0, 0, plate.width, plate.height}), frame.color());
 
   reference::ReferenceScene scene = traced_scene(settings, row, warn);
-  const Exposure exposure = exposure_of(scene, settings, row);
+  const LayerExposure exposure = exposure_of(scene, settings, row);
   scene.frame = {radiance_of(plate, exposure), lens, row.camera_from_tag};
   scene.unlit_radiance = 1.0 / glm::max(exposure.gain, 1e-20);
   reference::TraceOptions options;

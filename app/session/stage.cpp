@@ -20,8 +20,9 @@ render::FrameView frame_view(const CameraModel& camera, const SceneSettings& sce
   view.has_pose = row.found;
   if (!row.found) return view;
   view.camera_from_tag = row.camera_from_tag;
-  view.exposure = exposure_gain(scene.exposure, row.exposure, tag_irradiance_over_pi(built, row.camera_from_tag));
-  view.black = scene.exposure.mode == ExposureMode::fixed ? glm::dvec3(0.0) : row.black;
+  const LayerExposure exposure = layer_exposure(scene.exposure, row, tag_irradiance_over_pi(built, row.camera_from_tag));
+  view.exposure = exposure.gain;
+  view.black = exposure.black;
   if (row.has_exposure) view.receiver_light = row.exposure * scene.receiver.albedo + row.black;
   view.tag_from_light = tag_from_light(built, row.camera_from_tag);
   view.lens = lens_view(scene.lens, row, frame, vignetting);

@@ -66,6 +66,15 @@ TEST_F(ReferenceCommand, ExrIsExposedLinearLight) {
     EXPECT_NEAR(255 * code_from_linear(TransferFunction::srgb, linear.pixel(x, 240)[0]), coded.at<cv::Vec3b>(240, x)[2], 0.6);
 }
 
+/// `auto` exposes the finished picture anew; the light that a reference holds is that before it, the footage's own black
+/// included.
+TEST_F(ReferenceCommand, ExposureAutoHasTheLightOfMatch) {
+  for (const std::string mode : {"match", "auto"})
+    ASSERT_EQ(
+        reference({"--frame", "0", "-o", folder_.path(mode + ".exr"), "--track", poses_, "--exposure.mode", mode}).exit_code, 0);
+  EXPECT_EQ(render::read_exr(folder_.path("auto.exr")).data, render::read_exr(folder_.path("match.exr")).data);
+}
+
 TEST_F(ReferenceCommand, FrameThatIsNotThereSaysHowManyThereAre) {
   expect_refused(reference({"--frame", "99", "-o", folder_.path("x.png"), "--track", poses_}), 1,
                  "there is no frame 99; it has 36 from 0");

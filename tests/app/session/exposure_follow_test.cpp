@@ -154,6 +154,24 @@ TEST(ExposureFollows, ABlackFrameAndAWhiteFrameAreHeldAndWarnedOf) {
   EXPECT_EQ(track.warning(rows).has_value(), rows[2].found || rows[3].found);
 }
 
+TEST(ExposureFollows, ReadingThatFailsIsWarnedOfWhereverTheExposureIsFollowed) {
+  const std::vector<Frame> frames = photographs(tag_light(), {glm::dvec3(1), glm::dvec3(1), glm::dvec3(1e-9), glm::dvec3(1)});
+  for (const ExposureMode mode : {ExposureMode::match, ExposureMode::automatic, ExposureMode::fixed}) {
+    SceneSettings scene = scene_of_tag_5();
+    scene.exposure.mode = mode;
+    ShotTrack recorded(small_camera(), scene);
+    const auto live = make_tag_track(small_camera(), scene);
+    for (const Frame& frame : frames) {
+      recorded.add(frame);
+      live->row(frame);
+    }
+    const auto rows = recorded.solve();
+    ASSERT_TRUE(rows[2].found) << "the tag coasts over the black frame";
+    EXPECT_EQ(recorded.warning(rows).has_value(), mode != ExposureMode::fixed) << name_of(mode);
+    EXPECT_EQ(live->warning().has_value(), mode != ExposureMode::fixed) << name_of(mode);
+  }
+}
+
 /// Light times `share` where `is_within` (of pixels) holds.
 template <class Region>
 std::vector<float> dimmed(std::vector<float> light, float share, const Region& is_within) {
