@@ -1,5 +1,9 @@
 #include "app/settings/change_cost.hpp"
 
+#include <algorithm>
+
+#include "app/settings/parameters.hpp"
+
 namespace catchlight::app {
 namespace {
 

@@ -1,6 +1,7 @@
-// The kinds of values that parameters have, and where the values live.
+// The kinds of values that parameters have, where the values live, and what a change of them costs.
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
@@ -14,7 +15,8 @@
 
 namespace catchlight::app {
 
-/// The part of an opened shot that a parameter belongs to. What is made from that part follows it.
+/// The part of an opened shot that a parameter belongs to, and that a change asks to be made again with all that follows from it
+/// (docs/parameters.md).
 enum class ChangeCost {
   view,    ///< nothing that is kept: the next frame is drawn with it
   passes,  ///< the compositor's passes
@@ -24,6 +26,9 @@ enum class ChangeCost {
   track,   ///< the track: every frame is looked at again
   footage  ///< the footage: its codes stand for other light
 };
+constexpr auto names_of(ChangeCost) {
+  return std::array{"view", "passes", "light", "bake", "mesh", "track", "footage"};
+}
 
 /// Asks a lambda such as `[](auto& s) { return &s.probe.ev; }` where a value lives; for what a scene has several of it is
 /// `[](auto& s, std::size_t i) { return &s.objects[i].scale; }`.
@@ -52,13 +57,24 @@ class Access {
   T* (*changed_)(SceneSettings&, std::size_t);
 };
 
+/// How a slider goes over a range.
+enum class Scale {
+  linear,
+  logarithmic,
+  angle,  ///< degrees, which come round to where they began
+  color   ///< linear red, green and blue
+};
+
 struct RealKind {
   Access<double> access;
   double min, max;
+  Scale scale = Scale::linear;
+  double floor = 0;  ///< where a logarithmic scale begins if min is 0, with min itself below it
 };
 struct IntegerKind {
   Access<int> access;
   int min, max;
+  Scale scale = Scale::linear;
 };
 struct FlagKind {
   Access<bool> access;
@@ -69,6 +85,7 @@ struct SwitchKind {
 struct VectorKind {
   Access<glm::dvec3> access;
   double min, max;  ///< of each component
+  Scale scale = Scale::linear;
 };
 
 struct PathKind {

@@ -1,5 +1,7 @@
 #include "app/session/scene_build.hpp"
+#include "app/settings/parameters.hpp"
 #include "render/math/sh.hpp"
+#include "tests/support/parameter_values.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
@@ -47,6 +49,13 @@ class SceneBuild : public ::testing::Test {
         for (int c = 0; c < 3; ++c) probe.image.pixel(x, y)[c] = value[c];
       }
     render::save_probe(folder_.path("probe.exr"), probe);
+  }
+
+  /// Other values for all parameters of these costs, but where that needs another probe's file.
+  void change_all(const std::set<ChangeCost>& costs) {
+    for (const Parameter& parameter : parameters())
+      if (costs.contains(parameter.cost) && parameter.key != "probe.image" && parameter.key != "probe.layout")
+        set_parameter_from_text(scene_, parameter.key, tests::other_value(parameter));
   }
 
   BuiltScene build() {
@@ -152,6 +161,28 @@ TEST_F(SceneBuild, SecondBuildTakesTheTransferFromTheCache) {
   EXPECT_EQ(first.scene.transfer.object, second.scene.transfer.object);
   scene_.quality.bounces = 1;
   EXPECT_FALSE(build().transfer_was_cached) << "another bake was taken for this one";
+}
+
+TEST_F(SceneBuild, WhatCostsLessThanLightLeavesTheSceneAsItIs) {
+  const BuiltScene before = build();
+  change_all({ChangeCost::view, ChangeCost::passes, ChangeCost::track, ChangeCost::footage});
+  const BuiltScene after = build();
+  EXPECT_EQ(after.transfer_key, before.transfer_key);
+  EXPECT_EQ(after.probe.image.data, before.probe.image.data);
+  EXPECT_EQ(after.light_from_probe, before.light_from_probe);
+  EXPECT_EQ(after.light_follows_camera, before.light_follows_camera);
+  EXPECT_EQ(after.scene.light, before.scene.light);
+  EXPECT_EQ(after.scene.lights.size(), before.scene.lights.size());
+  EXPECT_EQ(after.scene.probe_in_tag_m, before.scene.probe_in_tag_m);
+}
+
+TEST_F(SceneBuild, WhatCostsLightLeavesTheMeshAsItIs) {
+  const BuiltScene before = build();
+  change_all({ChangeCost::light});
+  const BuiltScene after = build();
+  EXPECT_NE(after.probe.image.data, before.probe.image.data);
+  EXPECT_EQ(after.scene.mesh.indices, before.scene.mesh.indices);
+  EXPECT_EQ(after.scene.probe_in_tag_m, before.scene.probe_in_tag_m);
 }
 
 TEST_F(SceneBuild, WithoutReceiverThereIsNoShadow) {

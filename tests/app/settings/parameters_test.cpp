@@ -1,5 +1,6 @@
 #include "app/settings/parameters.hpp"
 #include "catchlight/error.hpp"
+#include "catchlight/util/text.hpp"
 #include "tests/support/parameter_values.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -78,6 +79,56 @@ TEST(ParameterTable, EndsOfARangeAreInIt) {
     EXPECT_NO_THROW(set_parameter(settings, parameter, kind->max)) << parameter.key;
     EXPECT_THROW(set_parameter(settings, parameter, std::nextafter(kind->min, -1e300)), Error) << parameter.key;
     EXPECT_THROW(set_parameter(settings, parameter, std::nextafter(kind->max, 1e300)), Error) << parameter.key;
+  }
+}
+
+/// Kinds of numbers with a scale.
+struct Slider {
+  Scale scale;
+  double min, max, floor;
+};
+
+std::optional<Slider> slider_of(const Parameter& parameter) {
+  if (const auto* real = std::get_if<RealKind>(&parameter.kind)) return Slider{real->scale, real->min, real->max, real->floor};
+  if (const auto* integer = std::get_if<IntegerKind>(&parameter.kind))
+    return Slider{integer->scale, static_cast<double>(integer->min), static_cast<double>(integer->max), 0};
+  if (const auto* vector = std::get_if<VectorKind>(&parameter.kind)) return Slider{vector->scale, vector->min, vector->max, 0};
+  return std::nullopt;
+}
+
+TEST(ParameterScale, AnglesAreDegreesAndColoursAreSharesOfLight) {
+  for (const Parameter& parameter : parameters()) {
+    const auto slider = slider_of(parameter);
+    EXPECT_EQ(slider && slider->scale == Scale::angle, parameter.unit == "deg") << parameter.key;
+    const bool may_be_color = std::holds_alternative<VectorKind>(parameter.kind) && slider->min == 0 && slider->max == 1;
+    EXPECT_EQ(slider && slider->scale == Scale::color, may_be_color) << parameter.key;
+  }
+}
+
+TEST(ParameterScale, ALogarithmBeginsAboveZero) {
+  for (const Parameter& parameter : parameters()) {
+    const auto slider = slider_of(parameter);
+    if (!slider) continue;
+    if (slider->scale != Scale::logarithmic) {
+      EXPECT_EQ(slider->floor, 0) << parameter.key << " has a floor and no logarithm";
+      continue;
+    }
+    EXPECT_NE(slider->min > 0, slider->floor > 0) << parameter.key << ": a floor is for ranges from 0";
+    EXPECT_GT(slider->max / std::max(slider->min, slider->floor), 30) << parameter.key << " is as good on a linear slider";
+  }
+}
+
+/// On a slider of a hundred steps a default is at an end or some step away from either: otherwise nothing could be set about it.
+TEST(ParameterScale, DefaultsAreWithinASlidersReach) {
+  for (const Parameter& parameter : parameters()) {
+    const auto slider = slider_of(parameter);
+    const auto value = real_from_text(parameter_text(SceneSettings{}, parameter));
+    if (!slider || !value || *value == slider->min || *value == slider->max) continue;
+    const auto height = [&](double x) { return slider->scale == Scale::logarithmic ? std::log(x) : x; };
+    const double low = height(slider->floor > 0 ? slider->floor : slider->min);
+    const double share = (height(*value) - low) / (height(slider->max) - low);
+    EXPECT_GT(share, 0.01) << parameter.key;
+    EXPECT_LT(share, 0.99) << parameter.key;
   }
 }
 
