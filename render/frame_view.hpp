@@ -12,7 +12,8 @@
 
 namespace catchlight::render {
 
-/// The camera's part of one frame: exposed linear value = exposure * radiance + black.
+/// The camera's part of one frame: exposed linear value = exposure * radiance + black, at the tag; elsewhere exposure is more or
+/// less by as much as the camera's vignetting is.
 struct FrameView {
   CameraModel camera;
   RigidTransform camera_from_tag;

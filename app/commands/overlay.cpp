@@ -9,7 +9,6 @@
 #include "app/track_export/track_export.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/error.hpp"
-#include "tracking/camera/camera_file.hpp"
 #include "tracking/track_file.hpp"
 
 namespace catchlight::app {
@@ -58,7 +57,6 @@ void overlay(const Options& options, Context& context) {
       open_track(options, recording, camera, source->info().is_live, range, context, report);
   Stage stage = build_stage(recording.scene, context.log, report);
   stage.draws_debug = options.debug;
-  if (recording.camera_file) stage.vignetting = tracking::read_vignetting(*recording.camera_file);
   const OverlayResult result = run_overlay(*source, *track, stage, recording.scene, camera, *output, range, context.log, report);
   if (!options.track_out.empty())
     write_track(options.track_out, result.rows, {camera, recording.scene, source->info().is_sequence}, options.sink.overwrite,

@@ -158,8 +158,7 @@ double shutter_share(const SceneSettings::Lens& settings, const BlurModel& blur)
   return blur.shutter > 0 || settings.motion_blur == Switch::automatic ? blur.shutter : kFilmShutter;
 }
 
-render::LensView lens_view(const SceneSettings::Lens& settings, const TrackRow& row, const Frame& frame,
-                           const glm::dvec3& vignetting) {
+render::LensView lens_view(const SceneSettings::Lens& settings, const TrackRow& row, const Frame& frame) {
   render::LensView lens;
   if (adds_noise(settings.noise, row.noise, frame.color())) {
     lens.noise.enabled = true;
@@ -172,7 +171,6 @@ render::LensView lens_view(const SceneSettings::Lens& settings, const TrackRow& 
   lens.defocus_px2 = defocus_px2(settings.defocus, row.blur);
   const double shutter = shutter_share(settings, row.blur);
   lens.motion = {row.blur.motion.turn_rad * shutter, row.blur.motion.shift_m * shutter};
-  if (settings.vignetting != Switch::off) lens.vignetting = vignetting;
   return lens;
 }
 

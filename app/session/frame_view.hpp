@@ -40,8 +40,7 @@ double defocus_px2(Switch wanted, const BlurModel& blur);
 double shutter_share(const SceneSettings::Lens& settings, const BlurModel& blur);
 
 /// The camera's part of the virtual layer in one frame.
-render::LensView lens_view(const SceneSettings::Lens& settings, const TrackRow& row, const Frame& frame,
-                           const glm::dvec3& vignetting);
+render::LensView lens_view(const SceneSettings::Lens& settings, const TrackRow& row, const Frame& frame);
 
 /// Which effects are on, by what figure, and why.
 std::vector<PlanEntry> lens_plan(const SceneSettings::Lens& settings, const std::vector<TrackRow>& rows, const Frame& frame,

@@ -144,7 +144,7 @@ OverlayResult run_overlay(MediaSource& source, FrameTrack& track, Stage& stage, 
                 " from " + std::to_string(source.info().first_number));
   output.finish();
   add_glare_to_plan(scene, report);
-  std::ranges::move(lens_plan(scene.lens, result.rows, *last, stage.vignetting), std::back_inserter(report.plan));
+  std::ranges::move(lens_plan(scene.lens, result.rows, *last, camera.vignetting), std::back_inserter(report.plan));
   warn_of_lost_frames(report, log);
   return result;
 }

@@ -15,9 +15,26 @@ namespace {
 
 namespace reference = render::reference;
 
-LayerExposure exposure_of(const reference::ReferenceScene& scene, const SceneSettings& settings, const TrackRow& row) {
+/// The exposure at each pixel: that at the tag, more or less by as much as vignetting is.
+struct PixelExposure {
+  LayerExposure at_tag;
+  CameraModel camera;
+  double passed_at_tag = 1;  ///< share of light that vignetting leaves there
+
+  glm::dvec3 gain(int x, int y) const { return at_tag.gain * (vignetting_at(camera, {x, y}) / passed_at_tag); }
+};
+
+PixelExposure exposure_of(const reference::ReferenceScene& scene, const SceneSettings& settings, const CameraModel& camera,
+                          const TrackRow& row) {
+  const std::optional<glm::dvec2> tag_px = reference::CameraRays(camera, row.camera_from_tag).pixel_of(glm::dvec3(0.0));
   const glm::dvec3 on_tag = render::irradiance(scene.probe, glm::transpose(scene.tag_from_probe) * glm::dvec3(0, 0, 1));
-  return layer_exposure(settings.exposure, row, on_tag / glm::pi<double>());
+  PixelExposure exposure{layer_exposure(settings.exposure, row, on_tag / glm::pi<double>()), camera};
+  const double passed_at_tag = tag_px ? vignetting_at(camera, *tag_px) : 0;
+  if (passed_at_tag > 0)
+    exposure.passed_at_tag = passed_at_tag;
+  else
+    exposure.camera.vignetting = glm::dvec3(0.0);
+  return exposure;
 }
 
 reference::ReferenceScene traced_scene(const SceneSettings& settings, const TrackRow& row, const WarningHandler& warn) {
@@ -32,42 +49,55 @@ reference::ReferenceScene traced_scene(const SceneSettings& settings, const Trac
   return scene;
 }
 
-/// Without the camera: what its noise made darker than black is black.
-Image radiance_of(const Image& exposed_linear, const LayerExposure& exposure) {
+/// What the camera saw, without the camera. What its noise made darker than black is black.
+Image radiance_of(const Image& exposed_linear, const PixelExposure& exposure) {
   Image radiance = exposed_linear;
-  for (std::size_t i = 0; i < radiance.data.size(); ++i) {
-    const int c = static_cast<int>(i % 3);
-    const double light = std::max(0.0, radiance.data[i] - exposure.black[c]);
-    radiance.data[i] = exposure.gain[c] > 0 ? static_cast<float>(light / exposure.gain[c]) : 0.0f;
+  for (int y = 0; y < radiance.height; ++y) {
+    for (int x = 0; x < radiance.width; ++x) {
+      const glm::dvec3 gain = exposure.gain(x, y);
+      for (int c = 0; c < 3; ++c) {
+        float& value = radiance.pixel(x, y)[c];
+        const double light = std::max(0.0, value - exposure.at_tag.black[c]);
+        value = gain[c] > 0 ? static_cast<float>(light / gain[c]) : 0.0f;
+      }
+    }
   }
   return radiance;
+}
+
+/// What the camera would have seen with the object there.
+void put_in(const reference::ReferencePicture& traced, const PixelExposure& exposure, Image& plate) {
+  for (int y = 0; y < plate.height; ++y) {
+    for (int x = 0; x < plate.width; ++x) {
+      const glm::dvec3 gain = exposure.gain(x, y);
+      for (int c = 0; c < 3; ++c) {
+        float& value = plate.pixel(x, y)[c];
+        const double kept = traced.kept.pixel(x, y)[c], object = traced.object.pixel(x, y)[c], black = exposure.at_tag.black[c];
+        if (kept != 1 || object != 0) value = static_cast<float>((value - black) * kept + object * gain[c] + black);
+      }
+    }
+  }
 }
 
 }  // namespace
 
 Image trace_reference_frame(const Frame& frame, const TrackRow& row, const CameraModel& camera, const SceneSettings& settings,
                             const ReferenceQuality& quality, const WarningHandler& warn, const ProgressHandler& progress) {
-  CameraModel lens = camera;
-  if (settings.lens.distortion == Switch::off) lens.distortion = {};
+  const CameraModel drawn = settings.lens.as_drawn(camera);
   Image plate(frame.width_px(), frame.height_px());
   plate.data = linear_rgb(frame.rgb({0, 0, plate.width, plate.height}), frame.color());
 
   reference::ReferenceScene scene = traced_scene(settings, row, warn);
-  const LayerExposure exposure = exposure_of(scene, settings, row);
-  scene.frame = {radiance_of(plate, exposure), lens, row.camera_from_tag};
-  scene.unlit_radiance = 1.0 / glm::max(exposure.gain, 1e-20);
+  const PixelExposure exposure = exposure_of(scene, settings, drawn, row);
+  scene.frame = {radiance_of(plate, exposure), drawn, row.camera_from_tag};
+  scene.unlit_radiance = 1.0 / glm::max(exposure.at_tag.gain, 1e-20);
   reference::TraceOptions options;
   options.samples = quality.samples;
   options.bounces = quality.bounces;
   const reference::ReferencePicture traced =
-      reference::PathTracer(std::move(scene), options).render(lens, row.camera_from_tag, progress);
+      reference::PathTracer(std::move(scene), options).render(drawn, row.camera_from_tag, progress);
 
-  for (std::size_t i = 0; i < plate.data.size(); ++i) {
-    const int c = static_cast<int>(i % 3);
-    const double kept = traced.kept.data[i], object = traced.object.data[i], black = exposure.black[c];
-    if (kept != 1 || object != 0)
-      plate.data[i] = static_cast<float>((plate.data[i] - black) * kept + object * exposure.gain[c] + black);
-  }
+  put_in(traced, exposure, plate);
   return plate;
 }
 

@@ -12,10 +12,9 @@ namespace catchlight::app {
 namespace {
 
 render::FrameView frame_view(const CameraModel& camera, const SceneSettings& scene, const BuiltScene& built, const TrackRow& row,
-                             const Frame& frame, const glm::dvec3& vignetting) {
+                             const Frame& frame) {
   render::FrameView view;
-  view.camera = camera;
-  if (scene.lens.distortion == Switch::off) view.camera.distortion = {};
+  view.camera = scene.lens.as_drawn(camera);
   view.color = frame.color();
   view.has_pose = row.found;
   if (!row.found) return view;
@@ -25,7 +24,7 @@ render::FrameView frame_view(const CameraModel& camera, const SceneSettings& sce
   view.black = exposure.black;
   if (row.has_exposure) view.receiver_light = row.exposure * scene.receiver.albedo + row.black;
   view.tag_from_light = tag_from_light(built, row.camera_from_tag);
-  view.lens = lens_view(scene.lens, row, frame, vignetting);
+  view.lens = lens_view(scene.lens, row, frame);
   return view;
 }
 
@@ -79,7 +78,7 @@ bool FrameDrawing::adapts() const {
 }
 
 render::FrameView FrameDrawing::view_of(const Frame& frame, const TrackRow& row) const {
-  render::FrameView view = frame_view(camera_, scene_, stage_.built, row, frame, stage_.vignetting);
+  render::FrameView view = frame_view(camera_, scene_, stage_.built, row, frame);
   view.tone = adapts() ? adaptation_.at(frame.time_s()) : std::nullopt;
   return view;
 }

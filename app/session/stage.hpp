@@ -24,8 +24,7 @@ struct Stage {
   std::unique_ptr<render::GlContext> context;
   BuiltScene built;
   std::unique_ptr<render::Compositor> compositor;
-  glm::dvec3 vignetting{0.0};  ///< as the camera file says
-  bool draws_debug = false;    ///< over every finished frame, as app/session/debug_drawing.hpp says
+  bool draws_debug = false;  ///< over every finished frame, as app/session/debug_drawing.hpp says
 };
 
 /// Loads, bakes and uploads; adds plan and renderer to the report. Throws Error.

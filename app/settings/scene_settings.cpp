@@ -36,6 +36,12 @@ tracking::TrackerOptions SceneSettings::Tag::tracker_options() const {
   return options;
 }
 
+CameraModel SceneSettings::Lens::as_drawn(CameraModel camera) const {
+  if (distortion == Switch::off) camera.distortion = {};
+  if (vignetting == Switch::off) camera.vignetting = glm::dvec3(0.0);
+  return camera;
+}
+
 std::string SceneSettings::resolve(const std::string& path) const {
   return (std::filesystem::path(folder) / path).string();
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "catchlight/camera.hpp"
 #include "catchlight/tag.hpp"
 #include "catchlight/util/enum_names.hpp"
 #include "render/probe/probe.hpp"
@@ -117,6 +118,9 @@ struct SceneSettings {
     Switch noise = Switch::automatic, motion_blur = Switch::automatic, defocus = Switch::automatic,
            distortion = Switch::automatic, vignetting = Switch::automatic, chroma_subsampling = Switch::automatic;
     double shutter = 0;  ///< 0: measured
+
+    /// The camera without what is switched off here: its distortion, its vignetting.
+    CameraModel as_drawn(CameraModel camera) const;
   } lens;
 
   struct Quality {

@@ -1,4 +1,4 @@
-// What the camera does to the virtual layer in one frame, besides exposure and distortion.
+// What the camera does to the virtual layer in one frame, besides exposure, distortion and vignetting.
 #pragma once
 
 #include <cstdint>
@@ -27,9 +27,6 @@ struct LensView {
   LensNoise noise;
   double defocus_px2 = 0;  ///< variance of the blur along each axis, beyond a pixel's own
   LensMotion motion;
-  /// v1, v2, v3 of the light that reaches the sensor r half diagonals from the principal point, 1 + v1 r^2 + v2 r^4 + v3 r^6. The
-  /// exposure is understood to be the one at the tag.
-  glm::dvec3 vignetting{0.0};
 };
 
 }  // namespace catchlight::render

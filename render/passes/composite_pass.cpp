@@ -56,17 +56,15 @@ struct Vignetting {
 };
 
 Vignetting vignetting_of(const FrameView& view) {
-  const glm::dvec3& v = view.lens.vignetting;
   Vignetting result;
-  if (v == glm::dvec3(0.0) || !(view.camera_from_tag.translation_m.z > 0)) return result;
   const CameraModel& camera = view.camera;
-  const double to_half_diagonal = 4 / (std::pow(camera.width_px, 2) + std::pow(camera.height_px, 2));
+  if (camera.vignetting == glm::dvec3(0.0) || !(view.camera_from_tag.translation_m.z > 0)) return result;
   const glm::dvec3 tag = distorted(camera, lens_limit(camera), view.camera_from_tag.translation_m);
-  const glm::dvec2 off = glm::dvec2(camera.fx_px * tag.x, camera.fy_px * tag.y) / tag.z;
-  const double r2 = glm::dot(off, off) * to_half_diagonal, at_tag = 1 + r2 * (v.x + r2 * (v.y + r2 * v.z));
+  const glm::dvec2 off_px = glm::dvec2(camera.fx_px * tag.x, camera.fy_px * tag.y) / tag.z;
+  const double at_tag = vignetting_at(camera, off_px + glm::dvec2(camera.cx_px, camera.cy_px));
   if (!(at_tag > 0)) return result;
-  result.terms = glm::vec4(v, 1 / at_tag);
-  result.at = glm::vec4(camera.cx_px, camera.cy_px, to_half_diagonal, 0);
+  result.terms = glm::vec4(camera.vignetting, 1 / at_tag);
+  result.at = glm::vec4(camera.cx_px, camera.cy_px, 1 / half_diagonal_px2(camera), 0);
   return result;
 }
 

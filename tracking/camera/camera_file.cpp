@@ -133,6 +133,18 @@ void read_distortion(const CameraFile& file, CameraModel& camera) {
   }
 }
 
+void read_vignetting(const CameraFile& file, CameraModel& camera) {
+  const std::string key = "vignetting";
+  if (!file.has(key)) return;
+  const std::vector<double> v = file.list(key);
+  if (v.size() != 3) file.refuse(key, "expected three numbers [v1, v2, v3], found " + std::to_string(v.size()));
+  for (int i = 1; i <= 10; ++i) {
+    const double r2 = i / 10.0, passed = 1 + r2 * (v[0] + r2 * (v[1] + r2 * v[2]));
+    if (!(passed > 0)) file.refuse(key, "expected 1 + v1 r^2 + v2 r^4 + v3 r^6 to stay above 0 up to the corners, r = 1");
+  }
+  camera.vignetting = {v[0], v[1], v[2]};
+}
+
 }  // namespace
 
 CameraModel read_camera_file(const std::string& path) {
@@ -143,20 +155,8 @@ CameraModel read_camera_file(const std::string& path) {
   read_intrinsics(file, camera);
   check_distortion_model(file);
   read_distortion(file, camera);
+  read_vignetting(file, camera);
   return camera;
-}
-
-glm::dvec3 read_vignetting(const std::string& path) {
-  const std::string key = "vignetting";
-  const CameraFile file(path);
-  if (!file.has(key)) return glm::dvec3(0.0);
-  const std::vector<double> v = file.list(key);
-  if (v.size() != 3) file.refuse(key, "expected three numbers [v1, v2, v3], found " + std::to_string(v.size()));
-  for (int i = 1; i <= 10; ++i) {
-    const double r2 = i / 10.0, passed = 1 + r2 * (v[0] + r2 * (v[1] + r2 * v[2]));
-    if (!(passed > 0)) file.refuse(key, "expected 1 + v1 r^2 + v2 r^4 + v3 r^6 to stay above 0 up to the corners, r = 1");
-  }
-  return {v[0], v[1], v[2]};
 }
 
 CameraModel camera_from_field_of_view(int width_px, int height_px, double horizontal_fov_deg) {

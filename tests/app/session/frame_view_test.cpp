@@ -90,9 +90,9 @@ TEST(GrainMeter, RoundingAloneIsNoNoise) {
   TrackRow row;
   row.noise = model;
   const Frame frame = noisy_frame(scene(), glm::dvec3(0), 0, 1);
-  EXPECT_FALSE(lens_view(lens, row, frame, {}).noise.enabled);
+  EXPECT_FALSE(lens_view(lens, row, frame).noise.enabled);
   row.noise.slope = glm::dvec3(3e-4);
-  EXPECT_TRUE(lens_view(lens, row, frame, {}).noise.enabled);
+  EXPECT_TRUE(lens_view(lens, row, frame).noise.enabled);
 }
 
 TEST(GrainMeter, SmallTagsSayNothing) {
@@ -278,29 +278,35 @@ TEST(LensView, EverythingCanBeSwitchedOffAlone) {
   row.noise = {glm::dvec3(3e-4), glm::dvec3(0), glm::dvec3(0)};
   row.blur = {{{0.01, 0, 0}, {0.02, 0, 0}}, 0.5, 1.0};
   const Frame frame = noisy_frame(scene(), glm::dvec3(0), 0, 1);
-  const glm::dvec3 vignetting(-0.2, 0, 0);
-  const render::LensView all = lens_view({}, row, frame, vignetting);
+  CameraModel camera;
+  camera.vignetting = {-0.2, 0, 0};
+  camera.distortion[0] = -0.3;
+  const render::LensView all = lens_view({}, row, frame);
   EXPECT_TRUE(all.noise.enabled);
   EXPECT_NEAR(all.defocus_px2, 1 - 1.0 / 12, 1e-12);
   EXPECT_EQ(all.motion.shift_m.x, 0.01);
-  EXPECT_EQ(all.vignetting, vignetting);
+  EXPECT_EQ(SceneSettings::Lens{}.as_drawn(camera).vignetting, camera.vignetting);
+  EXPECT_EQ(SceneSettings::Lens{}.as_drawn(camera).distortion, camera.distortion);
   SceneSettings::Lens lens;
   lens.noise = Switch::off;
-  EXPECT_FALSE(lens_view(lens, row, frame, vignetting).noise.enabled);
-  EXPECT_GT(lens_view(lens, row, frame, vignetting).defocus_px2, 0);
+  EXPECT_FALSE(lens_view(lens, row, frame).noise.enabled);
+  EXPECT_GT(lens_view(lens, row, frame).defocus_px2, 0);
   lens = {}, lens.defocus = Switch::off;
-  EXPECT_EQ(lens_view(lens, row, frame, vignetting).defocus_px2, 0);
+  EXPECT_EQ(lens_view(lens, row, frame).defocus_px2, 0);
   lens = {}, lens.motion_blur = Switch::off;
-  EXPECT_EQ(lens_view(lens, row, frame, vignetting).motion.shift_m, glm::dvec3(0));
+  EXPECT_EQ(lens_view(lens, row, frame).motion.shift_m, glm::dvec3(0));
   lens = {}, lens.vignetting = Switch::off;
-  EXPECT_EQ(lens_view(lens, row, frame, vignetting).vignetting, glm::dvec3(0));
+  EXPECT_EQ(lens.as_drawn(camera).vignetting, glm::dvec3(0));
+  EXPECT_TRUE(lens.as_drawn(camera).has_distortion());
+  lens = {}, lens.distortion = Switch::off;
+  EXPECT_FALSE(lens.as_drawn(camera).has_distortion());
   lens = {}, lens.shutter = 0.25;
-  EXPECT_EQ(lens_view(lens, row, frame, vignetting).motion.shift_m.x, 0.005);
+  EXPECT_EQ(lens_view(lens, row, frame).motion.shift_m.x, 0.005);
 }
 
 TEST(LensView, NothingMeasuredIsNothingAddedAndThePlanSaysWhy) {
   const Frame frame = noisy_frame(scene(), glm::dvec3(0), 0, 1);
-  const render::LensView none = lens_view({}, TrackRow{}, frame, {});
+  const render::LensView none = lens_view({}, TrackRow{}, frame);
   EXPECT_FALSE(none.noise.enabled);
   EXPECT_EQ(none.defocus_px2, 0);
   EXPECT_EQ(none.motion.shift_m, glm::dvec3(0));

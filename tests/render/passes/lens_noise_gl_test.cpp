@@ -140,7 +140,7 @@ TEST_F(LensNoiseGl, ExtremesStayFinite) {
 TEST_F(LensNoiseGl, VignettingIsRelativeToTheTag) {
   Compositor compositor(grey_wall(), without_glare());
   FrameView view = linear_view_from_above();
-  view.lens.vignetting = {-0.3, 0.05, -0.1};
+  view.camera.vignetting = {-0.3, 0.05, -0.1};
   const Composite composite = compositor.render(view, linear_grey_plate());
   const auto passed = [](double x, double y) {
     const double r2 = ((x - 79.5) * (x - 79.5) + (y - 59.5) * (y - 59.5)) / (80.0 * 80 + 60 * 60);

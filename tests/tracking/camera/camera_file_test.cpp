@@ -162,14 +162,11 @@ TEST(CameraFromFieldOfView, SeesTheImagesOuterEdgesAtTheGivenAngle) {
 }
 
 TEST_F(CameraFile, VignettingIsOptionalAndStaysAboveNothing) {
-  read(kOpenCv);
-  EXPECT_EQ(read_vignetting(path_), glm::dvec3(0));
-  read(std::string(kOpenCv) + "vignetting: [ -0.3, 0.1, -0.05 ]\n");
-  EXPECT_EQ(read_vignetting(path_), glm::dvec3(-0.3, 0.1, -0.05));
+  EXPECT_EQ(read(kOpenCv).vignetting, glm::dvec3(0));
+  EXPECT_EQ(read(std::string(kOpenCv) + "vignetting: [ -0.3, 0.1, -0.05 ]\n").vignetting, glm::dvec3(-0.3, 0.1, -0.05));
   const auto refusal = [&](const std::string& value) {
-    read(std::string(kOpenCv) + "vignetting: " + value + "\n");
     try {
-      read_vignetting(path_);
+      read(std::string(kOpenCv) + "vignetting: " + value + "\n");
     } catch (const Error& error) {
       return std::string(error.what());
     }
