@@ -8,4 +8,9 @@ std::vector<BundledTag> TagTarget::tags() const {
   return all;
 }
 
+std::array<glm::dvec3, 4> tag_corners_m(double size_m) {
+  const double h = size_m / 2;
+  return {{{-h, -h, 0}, {h, -h, 0}, {h, h, 0}, {-h, h, 0}}};
+}
+
 }  // namespace catchlight

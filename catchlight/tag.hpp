@@ -1,6 +1,8 @@
 // Printed tags: what is looked for.
 #pragma once
 
+#include <array>
+#include <glm/glm.hpp>
 #include <string>
 #include <vector>
 
@@ -28,5 +30,8 @@ struct TagTarget : PrintedTag {
   /// The first tag (in its own frame) and the bundle.
   std::vector<BundledTag> tags() const;
 };
+
+/// The corners of a tag's square in its own frame, counter-clockwise as the tag is read, from the lower left.
+std::array<glm::dvec3, 4> tag_corners_m(double size_m);
 
 }  // namespace catchlight

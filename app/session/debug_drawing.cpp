@@ -8,6 +8,7 @@
 #include "catchlight/pixel_rect.hpp"
 #include "catchlight/plate.hpp"
 #include "catchlight/rigid_transform.hpp"
+#include "catchlight/tag.hpp"
 #include "catchlight/util/enum_names.hpp"
 #include "tracking/camera/lens.hpp"
 
@@ -70,7 +71,7 @@ void add_line(Sketch& sketch, const CameraModel& camera, const RigidTransform& c
 
 void add_tag(Sketch& sketch, const CameraModel& camera, const RigidTransform& camera_from_tag, double tag_size_m) {
   const double half_m = tag_size_m / 2, arm_px = 5 * sketch.unit_px;
-  const glm::dvec3 corners_m[] = {{-half_m, -half_m, 0}, {half_m, -half_m, 0}, {half_m, half_m, 0}, {-half_m, half_m, 0}};
+  const auto corners_m = tag_corners_m(tag_size_m);
   for (int i = 0; i < 4; ++i) add_line(sketch, camera, camera_from_tag, corners_m[i], corners_m[(i + 1) % 4], kWhite);
   const cv::Scalar axis_colors[] = {kRed, kGreen, kBlue};
   for (int axis = 0; axis < 3; ++axis) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "catchlight/tag.hpp"
 #include "catchlight/util/statistics.hpp"
 #include "tracking/camera/lens.hpp"
 
@@ -103,9 +104,8 @@ Covariance2 seen_motion(const CameraModel& camera, const TrackRow& row, double t
 Covariance2 motion_covariance(const CameraModel& camera, const RigidTransform& camera_from_tag, const TagMotion& motion,
                               double tag_size_m) {
   Covariance2 sum;
-  const double half = tag_size_m / 2;
   constexpr int kPoints = 4;
-  for (const glm::dvec3& corner : {glm::dvec3(-half, -half, 0), {half, -half, 0}, {half, half, 0}, {-half, half, 0}}) {
+  for (const glm::dvec3& corner : tag_corners_m(tag_size_m)) {
     const glm::dvec3 point = camera_from_tag * corner, way = 0.5 * (glm::cross(motion.turn_rad, point) + motion.shift_m);
     const auto from = project_px(camera, point - way), to = project_px(camera, point + way);
     if (!from || !to) return {};

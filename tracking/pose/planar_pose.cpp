@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <opencv2/calib3d.hpp>
 
+#include "catchlight/tag.hpp"
 #include "tracking/camera/lens.hpp"
 
 namespace catchlight::tracking {
@@ -61,11 +62,6 @@ glm::dmat3 tag_from_upright(int turns) {
 }
 
 }  // namespace
-
-std::array<glm::dvec3, 4> tag_corners_m(double size_m) {
-  const double h = size_m / 2;
-  return {{{-h, -h, 0}, {h, -h, 0}, {h, h, 0}, {-h, h, 0}}};
-}
 
 std::optional<Quad> project_corners(const CameraModel& camera, const RigidTransform& camera_from_tag, double size_m) {
   Quad quad;

@@ -17,10 +17,7 @@ struct PoseHypothesis {
   double reprojection_rms_px = 0;  ///< over the four corners, as seen (distorted)
 };
 
-/// Corners of the tag's square in its own frame, in the order of TagObservation::corners_px.
-std::array<glm::dvec3, 4> tag_corners_m(double size_m);
-
-/// A tag's corners as seen; empty where one is behind the camera.
+/// A tag's corners as seen, in the order of tag_corners_m(); empty where one is behind the camera.
 std::optional<Quad> project_corners(const CameraModel& camera, const RigidTransform& camera_from_tag, double size_m);
 
 /// Infinitesimal plane-based pose estimation (Collins & Bartoli 2014), each solution refined by Levenberg-Marquardt on the

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "tracking/pose/planar_pose.hpp"
+#include "catchlight/tag.hpp"
 
 namespace catchlight::tracking {
 namespace {

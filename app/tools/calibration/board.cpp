@@ -6,10 +6,10 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "catchlight/tag.hpp"
 #include "catchlight/util/statistics.hpp"
 #include "tracking/detection/detector.hpp"
 #include "tracking/detection/families.hpp"
-#include "tracking/pose/planar_pose.hpp"
 #include "tracking/refinement/corner_refinement.hpp"
 
 namespace catchlight::app {
@@ -106,7 +106,7 @@ class TagBoard : public CalibrationBoard {
   void add_tag(BoardView& view, std::vector<double>& blurs_px, int index, const tracking::RefinedCorners& refined) const {
     const auto& placed = refined.edge_refined;
     if (!std::all_of(placed.begin(), placed.end(), [](bool edge) { return edge; })) return;
-    const auto corners_m = tracking::tag_corners_m(grid_.size_m);
+    const auto corners_m = tag_corners_m(grid_.size_m);
     for (int i = 0; i < 4; ++i) {
       view.points_board_m.emplace_back(grid_.center_m(index) + corners_m[i]);
       view.points_px.push_back(refined.corners_px[i]);

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "catchlight/rigid_transform.hpp"
+#include "catchlight/tag.hpp"
 
 namespace catchlight::app {
 
@@ -25,14 +26,9 @@ double angle_between_deg(const glm::dmat3& a, const glm::dmat3& b) {
   return glm::degrees(std::acos(std::clamp((trace - 1.0) / 2.0, -1.0, 1.0)));
 }
 
-std::array<glm::dvec3, 4> corners_m(double tag_size_m) {
-  const double half = tag_size_m / 2;
-  return {{{-half, -half, 0}, {half, -half, 0}, {half, half, 0}, {-half, half, 0}}};
-}
-
 int corners_in_picture(const CameraModel& camera, const RigidTransform& camera_from_tag, double tag_size_m) {
   int inside = 0;
-  for (const glm::dvec3& corner_m : corners_m(tag_size_m)) {
+  for (const glm::dvec3& corner_m : tag_corners_m(tag_size_m)) {
     const glm::dvec3 point_m = camera_from_tag * corner_m;
     const glm::dvec2 px = project(camera, point_m);
     inside += point_m.z > 0 && px.x >= 0 && px.y >= 0 && px.x <= camera.width_px - 1 && px.y <= camera.height_px - 1;
@@ -69,7 +65,7 @@ PoseComparison compare_poses(const std::vector<TrackRow>& ours, const std::vecto
     if (found == by_frame.end()) continue;
     ++result.tracked;
     const RigidTransform &a = found->second->camera_from_tag, &b = known.camera_from_tag;
-    for (const glm::dvec3& corner : corners_m(tag_size_m))
+    for (const glm::dvec3& corner : tag_corners_m(tag_size_m))
       corner_px.push_back(glm::distance(project(camera, a * corner), project(camera, b * corner)));
     translation_mm.push_back(1000 * glm::distance(a.translation_m, b.translation_m));
     rotation_deg.push_back(angle_between_deg(a.rotation, b.rotation));

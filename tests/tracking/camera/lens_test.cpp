@@ -1,6 +1,7 @@
 // The lens model against OpenCV's own, which shares no code with it, and against itself as an inverse pair.
 #include "tracking/camera/lens.hpp"
 #include "catchlight/camera.hpp"
+#include "catchlight/tag.hpp"
 #include "tests/support/synthetic_tag.hpp"
 
 #include <gtest/gtest.h>
@@ -15,8 +16,7 @@ TEST(Lens, ProjectsAsOpenCvDoes) {
   tag.target.size_m = 0.2;
   tag.camera_from_tag = tag_pose(camera, {180, 110}, 0.5, {20, -30, 10});
   const auto expected = true_corners_px(camera, tag);
-  const double h = 0.1;
-  const glm::dvec3 corners_m[] = {{-h, -h, 0}, {h, -h, 0}, {h, h, 0}, {-h, h, 0}};
+  const auto corners_m = tag_corners_m(tag.target.size_m);
   for (int i = 0; i < 4; ++i) {
     const auto seen = project_px(camera, tag.camera_from_tag * corners_m[i]);
     ASSERT_TRUE(seen);
