@@ -18,8 +18,8 @@ bool is_measured(const TrackRow& row) {
   return row.state == TrackState::tracking && row.noise_codes > 0 && row.blur_px2.xx + row.blur_px2.yy > 0;
 }
 
-/// The rotation's axis times its angle.
-glm::dvec3 rotation_vector(const glm::dmat3& r) {
+/// rotation_vector() of a small turn, straight from the matrix: to the last digit what track files have.
+glm::dvec3 small_turn(const glm::dmat3& r) {
   const glm::dvec3 twice_sine(r[1][2] - r[2][1], r[2][0] - r[0][2], r[0][1] - r[1][0]);
   const double sine = glm::length(twice_sine) / 2, cosine = (r[0][0] + r[1][1] + r[2][2] - 1) / 2;
   return sine < 1e-12 ? twice_sine / 2.0 : twice_sine * (std::atan2(sine, cosine) / (2 * sine));
@@ -29,7 +29,7 @@ glm::dvec3 rotation_vector(const glm::dmat3& r) {
 TagMotion motion_between(const TrackRow& before, const TrackRow& after) {
   const double share = 1.0 / static_cast<double>(after.frame - before.frame);
   const RigidTransform moved = after.camera_from_tag * inverse(before.camera_from_tag);
-  const glm::dvec3 turn = rotation_vector(moved.rotation);
+  const glm::dvec3 turn = small_turn(moved.rotation);
   return {turn * share, (moved.translation_m - 0.5 * glm::cross(turn, moved.translation_m)) * share};
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tracking/pose/rotation.hpp"
+#include "catchlight/rotation.hpp"
 
 namespace catchlight::tracking {
 namespace {
@@ -17,13 +17,9 @@ constexpr double kPositionGain = 0.4, kVelocityGain = 0.1;
 /// The other pose has to be this much likelier before the choice changes.
 constexpr double kSwitchOdds = 3;
 
-double angle_between(const glm::dmat3& a, const glm::dmat3& b) {
-  return glm::length(rotation_vector(b * glm::transpose(a)));
-}
-
 /// How well an orientation continues the predicted one, from 0 to 1.
 double continuity(const glm::dmat3& predicted, const glm::dmat3& seen, double dt_s) {
-  const double turn = angle_between(predicted, seen);
+  const double turn = angle_between_rad(predicted, seen);
   const double sigma = std::hypot(kTurnNoise_rad, kTurnNoise_rad_per_s * dt_s);
   return std::exp(-0.5 * turn * turn / (sigma * sigma));
 }
@@ -75,8 +71,8 @@ PoseMemory::Hypothesis PoseMemory::with_history(const PoseCandidate& seen, doubl
 std::size_t PoseMemory::heir(std::span<const Hypothesis> now, double dt_s) const {
   if (now.size() < 2) return 0;
   const glm::dmat3 expected = moved(hypotheses_[chosen_], hypotheses_[chosen_].smoothed, dt_s).rotation;
-  const double turn_0 = angle_between(expected, now[0].camera_from_tag.rotation);
-  const double turn_1 = angle_between(expected, now[1].camera_from_tag.rotation);
+  const double turn_0 = angle_between_rad(expected, now[0].camera_from_tag.rotation);
+  const double turn_1 = angle_between_rad(expected, now[1].camera_from_tag.rotation);
   return turn_1 < turn_0 ? 1 : 0;
 }
 

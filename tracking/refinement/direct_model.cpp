@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "catchlight/rotation.hpp"
 #include "catchlight/util/statistics.hpp"
-#include "tracking/pose/rotation.hpp"
 #include "tracking/refinement/tag_view.hpp"
 
 namespace catchlight::tracking {

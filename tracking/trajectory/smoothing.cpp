@@ -5,7 +5,7 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "tracking/pose/rotation.hpp"
+#include "catchlight/rotation.hpp"
 #include "tracking/trajectory/steadiness.hpp"
 
 namespace catchlight::tracking {

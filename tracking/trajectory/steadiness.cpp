@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tracking/pose/rotation.hpp"
+#include "catchlight/rotation.hpp"
 
 namespace catchlight::tracking {
 namespace {

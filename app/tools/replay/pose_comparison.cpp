@@ -1,9 +1,7 @@
 #include "app/tools/replay/pose_comparison.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
 #include <map>
 
 #include "catchlight/rigid_transform.hpp"

@@ -2,11 +2,11 @@
 #include "tracking/pose/pose_covariance.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/rigid_transform.hpp"
+#include "catchlight/rotation.hpp"
 #include "tests/support/pose_error.hpp"
 #include "tests/support/synthetic_tag.hpp"
 #include "tracking/observation.hpp"
 #include "tracking/pose/planar_pose.hpp"
-#include "tracking/pose/rotation.hpp"
 
 #include <gtest/gtest.h>
 

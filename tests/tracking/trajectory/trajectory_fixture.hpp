@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "catchlight/rigid_transform.hpp"
+#include "catchlight/rotation.hpp"
 #include "tests/support/pose_error.hpp"
 #include "tests/support/synthetic_tag.hpp"
-#include "tracking/pose/rotation.hpp"
 #include "tracking/trajectory/solver.hpp"
 
 namespace catchlight::tracking::path_test {

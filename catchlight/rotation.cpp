@@ -1,9 +1,9 @@
-#include "tracking/pose/rotation.hpp"
+#include "catchlight/rotation.hpp"
 
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
-namespace catchlight::tracking {
+namespace catchlight {
 
 glm::dvec3 rotation_vector(const glm::dmat3& rotation) {
   glm::dquat q = glm::quat_cast(rotation);
@@ -20,4 +20,8 @@ glm::dmat3 rotation_matrix(const glm::dvec3& rotation_vector_rad) {
   return glm::mat3_cast(glm::angleAxis(angle, rotation_vector_rad / angle));
 }
 
-}  // namespace catchlight::tracking
+double angle_between_rad(const glm::dmat3& a, const glm::dmat3& b) {
+  return glm::length(rotation_vector(b * glm::transpose(a)));
+}
+
+}  // namespace catchlight

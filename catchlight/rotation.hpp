@@ -3,11 +3,14 @@
 
 #include <glm/glm.hpp>
 
-namespace catchlight::tracking {
+namespace catchlight {
 
 /// The vector is at most pi long.
 glm::dvec3 rotation_vector(const glm::dmat3& rotation);
 
 glm::dmat3 rotation_matrix(const glm::dvec3& rotation_vector_rad);
 
-}  // namespace catchlight::tracking
+/// The angle that takes one orientation to another.
+double angle_between_rad(const glm::dmat3& a, const glm::dmat3& b);
+
+}  // namespace catchlight

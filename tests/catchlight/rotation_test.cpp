@@ -1,12 +1,12 @@
 // Rotation vectors against OpenCV's Rodrigues, and at the ends of their range.
-#include "tracking/pose/rotation.hpp"
+#include "catchlight/rotation.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 #include <opencv2/calib3d.hpp>
 
-namespace catchlight::tracking {
+namespace catchlight {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -60,10 +60,16 @@ TEST(Rotation, NoTurnIsTheZeroVector) {
   expect_near(rotation_matrix(glm::dvec3(0)), glm::dmat3(1.0), 0);
 }
 
+TEST(Rotation, TheAngleBetweenTwoIsThatOfTheTurnFromOneToTheOther) {
+  const glm::dmat3 start = rotation_matrix({0.7, -1.1, 0.4});
+  for (const double angle : {0.0, 1e-8, 0.3, 3.0})
+    EXPECT_NEAR(angle_between_rad(start, rotation_matrix(angle * kAxes[3]) * start), angle, 1e-14) << angle;
+}
+
 TEST(Rotation, TurnsAboutOneAxisAddUp) {
   const glm::dvec3 axis = kAxes[4];
   expect_near(rotation_matrix(0.4 * axis) * rotation_matrix(0.9 * axis), rotation_matrix(1.3 * axis), 1e-14);
 }
 
 }  // namespace
-}  // namespace catchlight::tracking
+}  // namespace catchlight
