@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "catchlight/error.hpp"
 #include "catchlight/pixel_rect.hpp"
@@ -12,6 +11,7 @@
 #include "render/gl/gl_context.hpp"
 #include "render/gl/pass_clock.hpp"
 #include "render/gl/shader_library.hpp"
+#include "render/mesh/bounds.hpp"
 #include "render/mesh/mesh.hpp"
 #include "render/passes/composite_pass.hpp"
 #include "render/passes/glare/aperture_glare_pass.hpp"
@@ -32,25 +32,6 @@ namespace {
 
 /// How far a smoothed surface may lie from its triangles, in shares of the object's diagonal.
 constexpr float kSkinShare = 0.01f;
-
-struct Box {
-  glm::dvec3 min_m{std::numeric_limits<double>::max()}, max_m{std::numeric_limits<double>::lowest()};
-};
-
-Box bounding_box(const Mesh& mesh) {
-  Box box;
-  for (const std::uint32_t i : mesh.indices) {
-    const glm::dvec3 p(mesh.vertices[i].position_m);
-    box.min_m = glm::min(box.min_m, p);
-    box.max_m = glm::max(box.max_m, p);
-  }
-  return box;
-}
-
-BoundingSphere sphere_around(const Box& box) {
-  if (box.min_m.x > box.max_m.x) return {glm::vec3(0), 1.0f};
-  return {glm::vec3(box.min_m + box.max_m) * 0.5f, static_cast<float>(0.5 * glm::distance(box.min_m, box.max_m))};
-}
 
 int supported_samples(int wanted) {
   GLint limit = 1;
@@ -90,7 +71,7 @@ struct Compositor::Impl {
   CompositorSettings settings;
   SplitLight light_probe;  ///< as the probe's frame has it
   glm::vec3 probe_in_tag_m;
-  Box box;
+  Bounds bounds;
   PassClock clock;
   ShaderLibrary shaders;
   LightTransfer light;
@@ -114,10 +95,10 @@ Compositor::Impl::Impl(const RenderScene& scene, const CompositorSettings& wante
     : settings(wanted),
       light_probe(split_light(checked(scene))),
       probe_in_tag_m(scene.probe_in_tag_m),
-      box(bounding_box(scene.mesh)),
+      bounds(bounds_of(scene.mesh)),
       shaders(wanted.shader_folder),
       light(shaders),
-      lights(static_cast<int>(scene.lights.size()), sphere_around(box), shaders),
+      lights(static_cast<int>(scene.lights.size()), bounds, shaders),
       object(scene.mesh, LitPoints("object", scene.transfer.object, scene.transfer.object_direct, sh_count(scene.transfer.bands)),
              scene.reflections, scene.rest_reflections, shaders),
       lens_blur(shaders),
@@ -135,7 +116,7 @@ Compositor::Impl::Impl(const RenderScene& scene, const CompositorSettings& wante
 
 SceneNeeds Compositor::Impl::needs() const {
   SceneNeeds result;
-  result.object_min_m = box.min_m, result.object_max_m = box.max_m;
+  result.object = bounds;
   if (receiver) result.shadow_reach = receiver->reach();
   result.mirrors = settings.reflection_rays > 0 && object.reflects();
   result.has_glare = settings.glare.enabled;
@@ -149,7 +130,7 @@ void Compositor::Impl::relight(const glm::dmat3& tag_from_light) {
   light.set_light(light_tag.whole, light_tag.split_off);
   lights.update(light_tag.samples, [this] { object.draw_geometry(); });
   object.light_by(light, lights);
-  if (receiver) receiver->light_by(light, light_tag, lights, box.min_m, box.max_m);
+  if (receiver) receiver->light_by(light, light_tag, lights, bounds);
   lit_from = tag_from_light;
 }
 
@@ -170,7 +151,7 @@ void Compositor::Impl::update_view(const FrameView& view, const FramePlan& plan)
   block.tangential = glm::vec4(p1, p2, 0, 0);
   block.lens_limit = glm::vec4(limit.radius, limit.distorted, limit.slope, 0);
   block.frame = glm::vec4(view.camera.width_px, view.camera.height_px, view.camera.fx_px, 0);
-  block.probe_in_tag_m = glm::vec4(probe_in_tag_m, kSkinShare * static_cast<float>(glm::distance(box.min_m, box.max_m)));
+  block.probe_in_tag_m = glm::vec4(probe_in_tag_m, kSkinShare * bounds.rounded_diagonal_m());
   block.options = {settings.reflection_rays, plan.mirrors_receiver ? 1 : 0, 0, 0};
   view_uniforms.update(block);
   view_uniforms.bind(BINDING_VIEW);

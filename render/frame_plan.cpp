@@ -12,11 +12,10 @@ bool sees_front_of_receiver(const FrameView& view) {
 /// Pixels that object or shadow may touch before they are blurred.
 PixelRect sharp_rect(const FrameView& view, const SceneNeeds& scene, bool draws_receiver) {
   PixelRect rect;
-  if (scene.object_min_m.x <= scene.object_max_m.x)
-    rect = visible_rect(view.camera, view.camera_from_tag, scene.object_min_m, scene.object_max_m, kNear_m);
+  if (!scene.object.empty()) rect = visible_rect(view.camera, view.camera_from_tag, scene.object, kNear_m);
   if (!draws_receiver) return rect;
-  const glm::dvec3 min_m(scene.shadow_reach->min_m, 0.0), max_m(scene.shadow_reach->max_m, 0.0);
-  return unite(rect, visible_rect(view.camera, view.camera_from_tag, min_m, max_m, kNear_m));
+  const Bounds reach{glm::vec3(scene.shadow_reach->min_m, 0), glm::vec3(scene.shadow_reach->max_m, 0)};
+  return unite(rect, visible_rect(view.camera, view.camera_from_tag, reach, kNear_m));
 }
 
 PixelRect grown(const PixelRect& rect, int pixels) {
@@ -34,7 +33,7 @@ FramePlan plan_frame(const FrameView& view, const SceneNeeds& scene, bool want_l
   plan.draws_receiver = scene.shadow_reach.has_value() && sees_front_of_receiver(view);
   const PixelRect sharp = sharp_rect(view, scene, plan.draws_receiver);
   if (sharp.empty()) return plan;
-  plan.blur = plan_lens_blur(view, scene.object_min_m, scene.object_max_m);
+  plan.blur = plan_lens_blur(view, scene.object);
   plan.virtual_rect = intersect(grown(sharp, plan.blur.reach_px(sharp)), plan.frame);
   plan.mirrors_receiver = plan.draws_receiver && scene.mirrors;
   plan.seeks_glare = scene.has_glare;

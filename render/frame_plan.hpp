@@ -1,13 +1,12 @@
 // What a frame will need, decided before any of it is drawn.
 #pragma once
 
-#include <glm/glm.hpp>
-#include <limits>
 #include <optional>
 
 #include "catchlight/pixel_rect.hpp"
 #include "render/camera/lens_blur.hpp"
 #include "render/frame_view.hpp"
+#include "render/mesh/bounds.hpp"
 #include "render/transfer/plane_rect.hpp"
 
 namespace catchlight::render {
@@ -17,8 +16,7 @@ inline constexpr double kNear_m = 1e-3;
 
 /// What a scene may ask of any frame, in the tag frame.
 struct SceneNeeds {
-  glm::dvec3 object_min_m{std::numeric_limits<double>::max()};  ///< around the object; beyond max: there is none
-  glm::dvec3 object_max_m{std::numeric_limits<double>::lowest()};
+  Bounds object;                          ///< around it; empty: there is none
   std::optional<PlaneRect> shadow_reach;  ///< where the receiver may be in shadow under the present light; none: no receiver
   bool mirrors = false;                   ///< some surface mirrors what is around it, not the probe alone
   bool has_glare = false;                 ///< highlights of the virtual layer spill

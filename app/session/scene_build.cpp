@@ -7,6 +7,7 @@
 
 #include "catchlight/util/text.hpp"
 #include "render/math/sh.hpp"
+#include "render/mesh/bounds.hpp"
 #include "render/mesh/mesh_file.hpp"
 #include "render/probe/prefilter.hpp"
 #include "render/probe/probe_split.hpp"
@@ -28,15 +29,6 @@ constexpr int kMinRays = 64;
 
 /// The error of low-discrepancy rays falls about as one over their number.
 constexpr double kRayErrorFactor = 4;
-
-double diagonal_m(const render::Mesh& mesh) {
-  glm::vec3 low = mesh.vertices.front().position_m, high = low;
-  for (const render::Vertex& vertex : mesh.vertices) {
-    low = glm::min(low, vertex.position_m);
-    high = glm::max(high, vertex.position_m);
-  }
-  return glm::distance(low, high);
-}
 
 std::string origin_of(const SceneSettings& settings, const std::string& key) {
   return settings.is_by_hand(key) ? "set by hand" : "default";
@@ -153,9 +145,7 @@ glm::dmat3 light_from_probe(const SceneSettings::Probe& probe) {
 }
 
 glm::dvec3 probe_in_tag_m(const render::Mesh& mesh) {
-  float top = 0;
-  for (const render::Vertex& vertex : mesh.vertices) top = std::max(top, vertex.position_m.z);
-  return {0, 0, top / 2};
+  return {0, 0, std::max(render::bounds_of(mesh).max_m.z, 0.0f) / 2};
 }
 
 render::Mesh build_mesh(const SceneSettings& settings, const WarningHandler& warn) {
@@ -164,7 +154,8 @@ render::Mesh build_mesh(const SceneSettings& settings, const WarningHandler& war
   render::Mesh mesh;
   for (const SceneSettings::Object& object : settings.objects)
     render::append(mesh, render::transformed(render::load_mesh(settings.resolve(object.mesh), warn), object.tag_from_object()));
-  render::subdivide_long_edges(mesh, diagonal_m(mesh) / kEdgesAcrossDiagonal, std::max(kMaxVertices, mesh.vertices.size()));
+  const double diagonal_m = render::bounds_of(mesh).diagonal_m();
+  render::subdivide_long_edges(mesh, diagonal_m / kEdgesAcrossDiagonal, std::max(kMaxVertices, mesh.vertices.size()));
   return mesh;
 }
 

@@ -60,9 +60,9 @@ glm::dvec3 distorted(const CameraModel& camera, const LensLimit& limit, const gl
   return {direction * radius + tangential(camera, direction * limit.radius) * p.z, p.z};
 }
 
-PixelRect visible_rect(const CameraModel& camera, const RigidTransform& camera_from_tag, const glm::dvec3& min_m,
-                       const glm::dvec3& max_m, double near_m) {
+PixelRect visible_rect(const CameraModel& camera, const RigidTransform& camera_from_tag, const Bounds& box, double near_m) {
   constexpr int kSteps = 8;
+  const glm::dvec3 min_m(box.min_m), max_m(box.max_m);
   const PixelRect picture{0, 0, camera.width_px, camera.height_px};
   const LensLimit limit = lens_limit(camera);
   glm::dvec2 low(1e30), high(-1e30);

@@ -8,6 +8,7 @@
 #include "catchlight/camera.hpp"
 #include "catchlight/pixel_rect.hpp"
 #include "catchlight/rigid_transform.hpp"
+#include "render/mesh/bounds.hpp"
 
 namespace catchlight::render {
 
@@ -33,9 +34,8 @@ LensLimit lens_limit(const CameraModel& camera);
 /// (x, y, z) in the camera frame -> (z x', z y', z), x' and y' the distorted normalised coordinates; finite also for z <= 0.
 glm::dvec3 distorted(const CameraModel& camera, const LensLimit& limit, const glm::dvec3& point_camera_m);
 
-/// Pixel rectangle within the picture that holds what the axis-aligned box (tag frame) can cover: empty if all of it is nearer
+/// Pixel rectangle within the picture that holds what lies in the box (tag frame) can cover: empty if all of it is nearer
 /// than near_m, the whole picture if some of it is. Grown by a border that covers what the lens bends between samples.
-PixelRect visible_rect(const CameraModel& camera, const RigidTransform& camera_from_tag, const glm::dvec3& min_m,
-                       const glm::dvec3& max_m, double near_m);
+PixelRect visible_rect(const CameraModel& camera, const RigidTransform& camera_from_tag, const Bounds& box, double near_m);
 
 }  // namespace catchlight::render

@@ -73,16 +73,16 @@ int LensBlurPlan::reach_px(const PixelRect& rect) const {
   return static_cast<int>(std::ceil(reach + std::min(longest, kMaxMotion_px) / 2)) + 2;
 }
 
-LensBlurPlan plan_lens_blur(const FrameView& view, const glm::dvec3& box_min_m, const glm::dvec3& box_max_m) {
+LensBlurPlan plan_lens_blur(const FrameView& view, const Bounds& box) {
   LensBlurPlan plan;
   if (view.lens.defocus_px2 > kMinDefocus_px2) plan.variance_px2 = std::min(view.lens.defocus_px2, kMaxDefocus_px2);
   const LensMotion& motion = view.lens.motion;
   if (motion.turn_rad == glm::dvec3(0.0) && motion.shift_m == glm::dvec3(0.0)) return plan;
-  if (box_min_m.x > box_max_m.x) return plan;
+  if (box.empty()) return plan;
   std::array<glm::dvec3, 9> corners, footprint;
   for (std::size_t i = 0; i < 9; ++i) {
     const glm::dvec3 share = i == 8 ? glm::dvec3(0.5) : glm::dvec3(i & 1, i >> 1 & 1, i >> 2);
-    corners[i] = glm::mix(box_min_m, box_max_m, share);
+    corners[i] = glm::mix(glm::dvec3(box.min_m), glm::dvec3(box.max_m), share);
     footprint[i] = glm::dvec3(glm::dvec2(corners[i]), 0.0);
   }
   plan.object = fit_motion(view.camera, view.camera_from_tag, motion, corners);

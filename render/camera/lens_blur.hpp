@@ -11,6 +11,7 @@
 #include "catchlight/rigid_transform.hpp"
 #include "render/camera/lens_view.hpp"
 #include "render/frame_view.hpp"
+#include "render/mesh/bounds.hpp"
 
 namespace catchlight::render {
 
@@ -43,6 +44,6 @@ struct LensBlurPlan {
 
 /// `box`: around the object, tag frame; its footprint stands for where shadows fall. Less than half a pixel of motion, which
 /// widens no edge by more than a 50th pixel squared, counts as none.
-LensBlurPlan plan_lens_blur(const FrameView& view, const glm::dvec3& box_min_m, const glm::dvec3& box_max_m);
+LensBlurPlan plan_lens_blur(const FrameView& view, const Bounds& box);
 
 }  // namespace catchlight::render

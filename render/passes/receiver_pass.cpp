@@ -25,18 +25,18 @@ glm::dvec3 dot(const std::vector<float>& transfer, const ShRgb& light) {
 
 }  // namespace
 
-PlaneRect shadow_reach(std::span<const LightSample> samples_tag, const glm::vec3& box_min_m, const glm::vec3& box_max_m) {
+PlaneRect shadow_reach(std::span<const LightSample> samples_tag, const Bounds& box) {
   constexpr float kNothing = std::numeric_limits<float>::max();
   const PlaneRect nothing{glm::vec2(kNothing), glm::vec2(-kNothing)};
-  const float farthest_m = kFarthestShadow * glm::distance(box_min_m, box_max_m);
+  const float farthest_m = kFarthestShadow * box.diagonal_m();
   PlaneRect reach = nothing;
   for (const LightSample& sample : samples_tag) {
     const glm::vec3 to_light(sample.direction);
-    if (!(to_light.z > 0) || !(box_max_m.z > 0)) continue;
-    for (const float z : {std::max(box_min_m.z, 0.0f), box_max_m.z}) {
+    if (!(to_light.z > 0) || !(box.max_m.z > 0)) continue;
+    for (const float z : {std::max(box.min_m.z, 0.0f), box.max_m.z}) {
       const glm::vec2 away = -z / std::max(to_light.z, 1e-6f) * glm::vec2(to_light);
       const glm::vec2 shift = away * std::min(1.0f, farthest_m / std::max(glm::length(away), 1e-12f));
-      reach = unite(reach, {glm::vec2(box_min_m) + shift, glm::vec2(box_max_m) + shift});
+      reach = unite(reach, {glm::vec2(box.min_m) + shift, glm::vec2(box.max_m) + shift});
     }
   }
   return reach;
@@ -52,7 +52,7 @@ ReceiverPass::ReceiverPass(const Transfer& transfer, ShaderLibrary& shaders)
       irradiance_(make_texture_2d("receiver irradiance", GL_RGB32F, grid_.columns, grid_.rows, GL_LINEAR)) {}
 
 void ReceiverPass::light_by(const LightTransfer& transfer, const SplitLight& light, const ShadowedLights& lights,
-                            const glm::vec3& box_min_m, const glm::vec3& box_max_m) {
+                            const Bounds& box) {
   points_.evaluate(transfer);
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, points_.radiance());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -75,15 +75,14 @@ void ReceiverPass::light_by(const LightTransfer& transfer, const SplitLight& lig
   }
   block_.points = glm::ivec4(grid_.columns, grid_.rows, 0, 0);
   reach_ = {grid_.min_m, grid_.max_m};
-  const PlaneRect of_shadows = shadow_reach(light.samples, box_min_m, box_max_m);
-  if (!of_shadows.empty()) draw_lights(of_shadows, lights, box_min_m, box_max_m);
+  const PlaneRect of_shadows = shadow_reach(light.samples, box);
+  if (!of_shadows.empty()) draw_lights(of_shadows, lights, box);
   block_.drawn_min_max_m = as_vec4(reach_);
   uniforms_.update(block_);
 }
 
-void ReceiverPass::draw_lights(const PlaneRect& rect, const ShadowedLights& lights, const glm::vec3& box_min_m,
-                               const glm::vec3& box_max_m) {
-  const float texel_m = glm::distance(box_min_m, box_max_m) / kTexelsAcrossObject;
+void ReceiverPass::draw_lights(const PlaneRect& rect, const ShadowedLights& lights, const Bounds& box) {
+  const float texel_m = box.diagonal_m() / kTexelsAcrossObject;
   const glm::ivec2 size = glm::clamp(glm::ivec2((rect.max_m - rect.min_m) / texel_m) + 8, kMinTexels, kMaxTexels);
   // A few texels more, over which the shadow fades where it was cut off.
   const glm::vec2 margin_m = 4.0f * (rect.max_m - rect.min_m) / glm::vec2(size - 8);

@@ -8,6 +8,7 @@
 #include "render/gl/fullscreen.hpp"
 #include "render/gl/render_target.hpp"
 #include "render/gl/shader_library.hpp"
+#include "render/mesh/bounds.hpp"
 #include "render/passes/light_transfer.hpp"
 #include "render/passes/shadowed_lights.hpp"
 #include "render/passes/split_light.hpp"
@@ -18,7 +19,7 @@ namespace catchlight::render {
 
 /// Where samples that shine from above the plane may cast the shadow of what lies in the box (tag frame), no farther away than 16
 /// times its size. Empty (min beyond max) without any.
-PlaneRect shadow_reach(std::span<const LightSample> samples_tag, const glm::vec3& box_min_m, const glm::vec3& box_max_m);
+PlaneRect shadow_reach(std::span<const LightSample> samples_tag, const Bounds& box);
 
 class ReceiverPass {
  public:
@@ -27,8 +28,7 @@ class ReceiverPass {
 
   /// The plane's irradiance under `light`, which `transfer` holds too; needed again whenever the light turns. `lights` casts the
   /// shadows of what lies in the box.
-  void light_by(const LightTransfer& transfer, const SplitLight& light, const ShadowedLights& lights, const glm::vec3& box_min_m,
-                const glm::vec3& box_max_m);
+  void light_by(const LightTransfer& transfer, const SplitLight& light, const ShadowedLights& lights, const Bounds& box);
 
   /// What may be in shadow.
   const PlaneRect& reach() const { return reach_; }
@@ -40,7 +40,7 @@ class ReceiverPass {
   void draw(const ColorTarget<1>& target, const PixelRect& rect, int frame_width, int frame_height) const;
 
  private:
-  void draw_lights(const PlaneRect& rect, const ShadowedLights& lights, const glm::vec3& box_min_m, const glm::vec3& box_max_m);
+  void draw_lights(const PlaneRect& rect, const ShadowedLights& lights, const Bounds& box);
 
   ReceiverGrid grid_;
   std::vector<float> unshadowed_;

@@ -42,9 +42,10 @@ glm::dvec3 any_perpendicular(const glm::dvec3& direction) {
 
 }  // namespace
 
-ShadowedLights::ShadowedLights(int samples, const BoundingSphere& object, ShaderLibrary& shaders)
+ShadowedLights::ShadowedLights(int samples, const Bounds& object, ShaderLibrary& shaders)
     : count_(samples),
-      object_(object),
+      middle_m_(object.empty() ? glm::vec3(0) : object.middle_m()),
+      radius_m_(object.empty() ? 1 : object.rounded_diagonal_m() / 2),
       map_texels_(samples > 0 ? texels_for(samples) : 1),
       program_(shaders.program({.vertex = "shadow_map.vert"})),
       maps_(make_maps(map_texels_, std::max(samples, 1))),
@@ -55,8 +56,8 @@ ShadowedLights::ShadowedLights(int samples, const BoundingSphere& object, Shader
 void ShadowedLights::update(std::span<const LightSample> samples_tag, const std::function<void()>& draw_object) {
   shader_interface::LightSampleUniforms block{};
   block.count.x = count_;
-  block.sphere = glm::vec4(object_.middle_m, object_.radius_m);
-  block.lift_m.x = kLiftTexels * 2 * object_.radius_m / static_cast<float>(map_texels_);
+  block.sphere = glm::vec4(middle_m_, radius_m_);
+  block.lift_m.x = kLiftTexels * 2 * radius_m_ / static_cast<float>(map_texels_);
   for (std::size_t i = 0; i < samples_tag.size(); ++i) {
     const LightSample& sample = samples_tag[i];
     block.to_light[i] = glm::vec4(glm::vec3(sample.direction), static_cast<float>(sample.spread_rad));

@@ -7,21 +7,16 @@
 
 #include "render/gl/gl_objects.hpp"
 #include "render/gl/shader_library.hpp"
+#include "render/mesh/bounds.hpp"
 #include "render/probe/light_samples.hpp"
 #include "shaders/interface.h"
 
 namespace catchlight::render {
 
-/// Middle and radius of all that casts shadows, tag frame.
-struct BoundingSphere {
-  glm::vec3 middle_m{0};
-  float radius_m = 0;
-};
-
 class ShadowedLights {
  public:
-  /// For `samples` of them, at most MAX_LIGHT_SAMPLES; none is possible too.
-  ShadowedLights(int samples, const BoundingSphere& object, ShaderLibrary& shaders);
+  /// For `samples` of them, at most MAX_LIGHT_SAMPLES; none is possible too. All that casts shadows is in the box (tag frame).
+  ShadowedLights(int samples, const Bounds& object, ShaderLibrary& shaders);
 
   /// Takes over the samples (tag frame; as many as said) and draws their maps; `draw_object` draws all triangles with their
   /// positions as ATTRIBUTE_POSITION. Needed again only when the light turns.
@@ -33,7 +28,8 @@ class ShadowedLights {
 
  private:
   int count_;
-  BoundingSphere object_;
+  glm::vec3 middle_m_;  ///< of the sphere around the box
+  float radius_m_;
   int map_texels_;
   Program& program_;
   GlTexture maps_;

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "catchlight/error.hpp"
+#include "render/mesh/bounds.hpp"
 
 namespace catchlight::render {
 namespace {
@@ -41,35 +42,21 @@ void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* pr
   return leaf;
 }
 
-struct Bounds {
-  glm::vec3 min_m, max_m;
-};
-
-Bounds triangle_bounds(const Mesh& mesh, std::size_t triangle) {
-  const std::uint32_t* corner = &mesh.indices[3 * triangle];
-  const glm::vec3 a = mesh.vertices[corner[0]].position_m, b = mesh.vertices[corner[1]].position_m,
-                  c = mesh.vertices[corner[2]].position_m;
-  return {glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))};
-}
-
 /// Depth first; boxes are taken from the triangles themselves.
 Bounds flatten(const BuildNode& node, const Mesh& mesh, SkipBvh& bvh) {
   const std::size_t index = bvh.nodes.size();
   bvh.nodes.emplace_back();
-  Bounds bounds{glm::vec3(1e30f), glm::vec3(-1e30f)};
-  const auto include = [&bounds](const Bounds& other) {
-    bounds = {glm::min(bounds.min_m, other.min_m), glm::max(bounds.max_m, other.max_m)};
-  };
+  Bounds bounds;
   std::uint32_t triangles = 0;
   if (node.count > 0) {
     triangles = static_cast<std::uint32_t>(bvh.triangles.size()) * 8 + node.count;
     for (const std::uint32_t triangle : std::span(node.primitives, node.count)) {
       bvh.triangles.push_back(triangle);
-      include(triangle_bounds(mesh, triangle));
+      bounds.add(triangle_bounds(mesh, triangle));
     }
   } else {
     for (const BuildNode* child : node.children)
-      if (child) include(flatten(*child, mesh, bvh));
+      if (child) bounds.add(flatten(*child, mesh, bvh));
   }
   bvh.nodes[index] = {bounds.min_m, triangles, bounds.max_m, static_cast<std::uint32_t>(bvh.nodes.size())};
   return bounds;

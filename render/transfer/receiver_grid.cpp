@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/mesh/bounds.hpp"
+
 namespace catchlight::render {
 namespace {
 
@@ -45,11 +47,7 @@ std::optional<std::size_t> ReceiverGrid::nearest(const glm::vec2& place_m) const
 }
 
 ReceiverGrid receiver_grid_for(const Mesh& mesh_tag, int points_across) {
-  glm::vec3 low(INFINITY), high(-INFINITY);
-  for (const std::uint32_t index : mesh_tag.indices) {
-    low = glm::min(low, mesh_tag.vertices[index].position_m);
-    high = glm::max(high, mesh_tag.vertices[index].position_m);
-  }
+  const auto [low, high] = bounds_of(mesh_tag);
   if (points_across < 2 || !(high.z > 0)) return {};
   // Twice the height away the object fills 1 % of the cosine-weighted sky or less.
   const glm::vec2 margin(2 * high.z);

@@ -8,6 +8,7 @@
 #include "catchlight/util/parallel.hpp"
 #include "render/math/hemisphere_rays.hpp"
 #include "render/math/sh.hpp"
+#include "render/mesh/bounds.hpp"
 #include "render/rays/ray_scene.hpp"
 #include "render/transfer/interior_vertices.hpp"
 
@@ -24,19 +25,6 @@ constexpr float kMinBounce = 0.004f;  // of the brightest spot: what comes back 
 constexpr int kMinRays = 256;
 
 using Basis = std::array<float, kMaxShBands * kMaxShBands>;
-
-struct Bounds {
-  glm::vec3 min_m{INFINITY}, max_m{-INFINITY};
-};
-
-Bounds bounds_of(const Mesh& mesh) {
-  Bounds bounds;
-  for (const std::uint32_t index : mesh.indices) {
-    bounds.min_m = glm::min(bounds.min_m, mesh.vertices[index].position_m);
-    bounds.max_m = glm::max(bounds.max_m, mesh.vertices[index].position_m);
-  }
-  return bounds;
-}
 
 // Diffuse albedo of each vertex; of a vertex that triangles of several materials share, the first one's. Metals have none.
 std::vector<glm::vec3> diffuse_albedos(const Mesh& mesh) {
@@ -71,8 +59,8 @@ class Baker {
         scene_(mesh),
         albedo_(diffuse_albedos(mesh)) {
     const Bounds bounds = bounds_of(mesh);
-    middle_m_ = (bounds.min_m + bounds.max_m) * 0.5f;
-    radius_m_ = glm::distance(bounds.min_m, bounds.max_m) * 0.5f;
+    middle_m_ = bounds.middle_m();
+    radius_m_ = bounds.diagonal_m() * 0.5f;
     lift_m_ = kLift * 2 * radius_m_;
   }
 

@@ -27,8 +27,7 @@ FrameView view_from_below() {
 /// A box of 20 mm on the receiver, whose shadow may fall 50 mm around the tag's middle.
 SceneNeeds mirroring_box() {
   SceneNeeds scene;
-  scene.object_min_m = {-0.01, -0.01, 0};
-  scene.object_max_m = {0.01, 0.01, 0.02};
+  scene.object = {{-0.01f, -0.01f, 0}, {0.01f, 0.01f, 0.02f}};
   scene.shadow_reach = PlaneRect{{-0.05f, -0.05f}, {0.05f, 0.05f}};
   scene.mirrors = true;
   scene.has_glare = true;

@@ -96,7 +96,7 @@ TEST(VisibleRect, HoldsEveryProjectionOfTheBox) {
         for (int column = 0; column < 3; ++column) camera_from_tag.rotation[column][row] = r(row, column);
       camera_from_tag.translation_m = {shift(random), shift(random), depth(random)};
       const glm::dvec3 low(-0.1, -0.05, 0), high(0.1, 0.08, 0.12);
-      const PixelRect rect = visible_rect(camera, camera_from_tag, low, high, 0.001);
+      const PixelRect rect = visible_rect(camera, camera_from_tag, {glm::vec3(low), glm::vec3(high)}, 0.001);
       for (int k = 0; k < 50; ++k) {
         const glm::dvec3 p = camera_from_tag * glm::mix(low, high, glm::dvec3(share(random), share(random), share(random)));
         const glm::dvec2 pixel = pixel_by_clip(camera, p);
@@ -109,10 +109,11 @@ TEST(VisibleRect, HoldsEveryProjectionOfTheBox) {
 
 TEST(VisibleRect, IsEmptyBehindTheCameraAndWholeAcrossItsPlane) {
   const CameraModel camera = camera_with({});
+  const Bounds box{glm::vec3(-0.1f), glm::vec3(0.1f)};
   RigidTransform behind, across;
   behind.translation_m = {0, 0, -1};
-  EXPECT_TRUE(visible_rect(camera, behind, glm::dvec3(-0.1), glm::dvec3(0.1), 0.001).empty());
-  EXPECT_EQ(visible_rect(camera, across, glm::dvec3(-0.1), glm::dvec3(0.1), 0.001), (PixelRect{0, 0, 640, 480}));
+  EXPECT_TRUE(visible_rect(camera, behind, box, 0.001).empty());
+  EXPECT_EQ(visible_rect(camera, across, box, 0.001), (PixelRect{0, 0, 640, 480}));
 }
 
 }  // namespace

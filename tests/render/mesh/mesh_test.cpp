@@ -1,6 +1,7 @@
 // Meshes of other files, and what is done to meshes.
 #include "catchlight/color.hpp"
 #include "catchlight/error.hpp"
+#include "render/mesh/bounds.hpp"
 #include "render/mesh/mesh_file.hpp"
 #include "tests/support/shapes.hpp"
 #include "tests/support/test_files.hpp"
@@ -198,6 +199,18 @@ TEST(Transformed, MovesPointsAndKeepsNormalsPerpendicularAndOutward) {
   EXPECT_THROW(transformed(mesh, glm::dmat4(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, 1, 0, 0), glm::dvec4(1, 1, 0, 0),
                                             glm::dvec4(0, 0, 0, 1))),
                Error);
+}
+
+TEST(Bounds, HoldTheTrianglesAndNothingElse) {
+  Mesh mesh = box({-1, 2, 0.5f}, {3, 4, 6});
+  mesh.vertices.push_back({{100, 100, 100}, {0, 0, 1}});  // no triangle's
+  const Bounds bounds = bounds_of(mesh);
+  EXPECT_EQ(bounds.min_m, glm::vec3(-1, 2, 0.5f));
+  EXPECT_EQ(bounds.max_m, glm::vec3(3, 4, 6));
+  EXPECT_EQ(bounds.middle_m(), glm::vec3(1, 3, 3.25f));
+  EXPECT_FLOAT_EQ(bounds.diagonal_m(), std::sqrt(16 + 4 + 30.25f));
+  EXPECT_FALSE(bounds.empty());
+  EXPECT_TRUE(bounds_of(Mesh{}).empty());
 }
 
 TEST(Append, KeepsMaterialsApart) {

@@ -145,7 +145,7 @@ TEST_F(LensBlurGl, AStillViewIsTheSameToTheLastBit) {
   const Composite still = compositor.render(view, black());
   EXPECT_EQ(still.rgba, plain.rgba);
   EXPECT_EQ(compositor.pass_times().size(), passes) << "no pass for nothing";
-  EXPECT_TRUE(plan_lens_blur(linear_view_from_above(), glm::dvec3(-1), glm::dvec3(1)).empty());
+  EXPECT_TRUE(plan_lens_blur(linear_view_from_above(), {glm::vec3(-1), glm::vec3(1)}).empty());
 }
 
 TEST_F(LensBlurGl, TheShadowIsBlurredAsTheObjectIs) {
