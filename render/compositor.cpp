@@ -6,7 +6,7 @@
 #include "catchlight/error.hpp"
 #include "catchlight/pixel_rect.hpp"
 #include "catchlight/tone_curve.hpp"
-#include "render/camera/lens.hpp"
+#include "render/camera/clip_from_camera.hpp"
 #include "render/frame_plan.hpp"
 #include "render/gl/gl_context.hpp"
 #include "render/gl/pass_clock.hpp"
@@ -136,7 +136,6 @@ void Compositor::Impl::relight(const glm::dmat3& tag_from_light) {
 
 void Compositor::Impl::update_view(const FrameView& view, const FramePlan& plan) {
   const auto& [k1, k2, p1, p2, k3, k4, k5, k6] = view.camera.distortion;
-  const LensLimit limit = lens_limit(view.camera);
   glm::dmat4 camera_from_tag(view.camera_from_tag.rotation);
   camera_from_tag[3] = glm::dvec4(view.camera_from_tag.translation_m, 1.0);
   shader_interface::ViewUniforms block{};
@@ -149,7 +148,8 @@ void Compositor::Impl::update_view(const FrameView& view, const FramePlan& plan)
   block.radial_numerator = glm::vec4(k1, k2, k3, 0);
   block.radial_denominator = glm::vec4(k4, k5, k6, 0);
   block.tangential = glm::vec4(p1, p2, 0, 0);
-  block.lens_limit = glm::vec4(limit.radius, limit.distorted, limit.slope, 0);
+  block.distortion_limit =
+      glm::vec4(plan.distortion_limit.radius, plan.distortion_limit.distorted, plan.distortion_limit.slope, 0);
   block.frame = glm::vec4(view.camera.width_px, view.camera.height_px, view.camera.fx_px, 0);
   block.probe_in_tag_m = glm::vec4(probe_in_tag_m, kSkinShare * bounds.rounded_diagonal_m());
   block.options = {settings.reflection_rays, plan.mirrors_receiver ? 1 : 0, 0, 0};
@@ -219,6 +219,7 @@ void Compositor::Impl::upload_plate(const PlateReader& plate, const PixelRect& r
 
 void Compositor::Impl::draw_composite(const FrameView& view, const FramePlan& plan, const Composite& result) {
   VirtualLayer layer{plan.virtual_rect, object_seen, shadow_seen, nullptr};
+  layer.passed_at_tag = plan.passed_at_tag;
   if (result.glare_drawn) layer.glare = &glare;
   if (result.glare_drawn && aperture_glare) layer.pixel_glare = &aperture_glare->glare();
   composite.draw(view, result.rect, layer, plan.makes_layers, plan.is_toned);

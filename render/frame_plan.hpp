@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "catchlight/pixel_rect.hpp"
+#include "catchlight/projection.hpp"
 #include "render/camera/lens_blur.hpp"
 #include "render/frame_view.hpp"
 #include "render/mesh/bounds.hpp"
@@ -27,9 +28,11 @@ struct FramePlan {
   PixelRect frame;         ///< all of its pixels
   PixelRect virtual_rect;  ///< pixels that the object, its shadow and their blur may touch; empty: nothing virtual is drawn
   LensBlurPlan blur;
-  bool draws_receiver = false;    ///< the camera is in front of the receiver
-  bool mirrors_receiver = false;  ///< mirrors show the receiver as the frame does, so that all of the plate comes first
-  bool seeks_glare = false;       ///< whether there is any is known once the virtual layer is drawn
+  DistortionLimit distortion_limit{};  ///< of the view's camera
+  double passed_at_tag = 0;            ///< share of light that vignetting leaves at the tag; 0: the tag is not in front
+  bool draws_receiver = false;         ///< the camera is in front of the receiver
+  bool mirrors_receiver = false;       ///< mirrors show the receiver as the frame does, so that all of the plate comes first
+  bool seeks_glare = false;            ///< whether there is any is known once the virtual layer is drawn
   bool makes_layers = false;
   bool is_toned = false;  ///< the composite is linear light, which a tone curve makes codes of
 

@@ -86,7 +86,7 @@ UNIFORM_BLOCK(ViewUniforms, BINDING_VIEW) {
   vec4 radial_numerator;    // k1 k2 k3
   vec4 radial_denominator;  // k4 k5 k6
   vec4 tangential;          // p1 p2
-  vec4 lens_limit;          // radius, distorted radius, slope
+  vec4 distortion_limit;    // radius, distorted radius, slope
   vec4 frame;               // width, height, focal length in pixels
   vec4 probe_in_tag_m;      // where the probe was captured; w: how deep below its triangles a smoothed surface may start a ray
   ivec4 options;            // rays over a rough surface's lobe (0: the probe alone is mirrored), receiver mirrored

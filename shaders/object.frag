@@ -1,7 +1,7 @@
 // Diffuse exit radiance from the transfer, and what the surface mirrors: split-sum (Karis 2013), GGX, Schlick's Fresnel.
 #version 450 core
 #include "interface.h"
-#include "lens.glsl"
+#include "distortion.glsl"
 #include "receiver.glsl"
 #include "reflection.glsl"
 

@@ -1,6 +1,6 @@
 #version 450 core
 #include "interface.h"
-#include "lens.glsl"
+#include "distortion.glsl"
 
 layout(location = ATTRIBUTE_POSITION) in vec3 position_m;
 layout(location = ATTRIBUTE_NORMAL) in vec3 normal;

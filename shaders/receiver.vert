@@ -2,7 +2,7 @@
 // strip along the columns.
 #version 450 core
 #include "interface.h"
-#include "lens.glsl"
+#include "distortion.glsl"
 
 out vec2 place;  // tag x, y
 

@@ -7,10 +7,10 @@
 
 #include "catchlight/pixel_rect.hpp"
 #include "catchlight/plate.hpp"
+#include "catchlight/projection.hpp"
 #include "catchlight/rigid_transform.hpp"
 #include "catchlight/tag.hpp"
 #include "catchlight/util/enum_names.hpp"
-#include "tracking/camera/lens.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -45,10 +45,10 @@ struct Sketch {
 /// Where the lens puts a point. Empty behind the camera, and beyond the field in which the lens model is one to one: there it
 /// would fold back into the picture.
 std::optional<glm::dvec2> seen_px(const CameraModel& camera, const glm::dvec3& point_camera_m) {
-  const auto ideal_px = tracking::project_ideal_px(camera, point_camera_m);
-  const auto px = tracking::project_px(camera, point_camera_m);
+  const auto ideal_px = project_ideal_px(camera, point_camera_m);
+  const auto px = project_px(camera, point_camera_m);
   if (!px || glm::length(*px) > 1e5) return std::nullopt;  // far beyond any picture
-  const auto back_px = tracking::undistort_px(camera, *px);
+  const auto back_px = undistort_px(camera, *px);
   return back_px && glm::distance(*back_px, *ideal_px) < 0.01 ? px : std::nullopt;
 }
 

@@ -20,10 +20,10 @@ namespace {
 constexpr double kEdgesAcrossDiagonal = 24;
 constexpr std::size_t kMaxVertices = 200'000;
 
-/// Of the object's transfer.
+/// How large the object's transfer may become.
 constexpr std::size_t kTransferBytes = std::size_t{512} << 20;
 
-/// Of all vertices together, so that a million triangles bake in minutes; but never fewer a vertex than kMinRays.
+/// The rays of all vertices together, so that a million triangles bake in minutes; but never fewer a vertex than kMinRays.
 constexpr std::size_t kMaxRays = std::size_t{1} << 26;
 constexpr int kMinRays = 64;
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "render/camera/lens.hpp"
 #include "shaders/interface.h"
 
 namespace catchlight::render {
@@ -13,23 +12,18 @@ namespace {
 constexpr double kMinMotion_px = 0.5, kMinDefocus_px2 = 1e-6;
 constexpr double kInvisible = 1e-5;  ///< share of a Gaussian in its tail
 
-glm::dvec2 seen_px(const CameraModel& camera, const LensLimit& limit, const glm::dvec3& point_camera_m) {
-  const glm::dvec3 p = distorted(camera, limit, point_camera_m);
-  return {camera.fx_px * p.x / p.z + camera.cx_px, camera.fy_px * p.y / p.z + camera.cy_px};
-}
-
 }  // namespace
 
-MotionField fit_motion(const CameraModel& camera, const RigidTransform& camera_from_tag, const LensMotion& motion,
-                       std::span<const glm::dvec3> points_tag_m) {
-  const LensLimit limit = lens_limit(camera);
+MotionField fit_motion(const CameraModel& camera, const DistortionLimit& limit, const RigidTransform& camera_from_tag,
+                       const LensMotion& motion, std::span<const glm::dvec3> points_tag_m) {
+  const auto seen_px = [&](const glm::dvec3& point_camera_m) { return project_px(camera, point_camera_m, &limit).value(); };
   std::vector<glm::dvec2> places, displacements;
   for (const glm::dvec3& point : points_tag_m) {
     const glm::dvec3 middle = camera_from_tag * point;
     const glm::dvec3 half = 0.5 * (glm::cross(motion.turn_rad, middle) + motion.shift_m);
     if (!(middle.z - std::abs(half.z) > 1e-3)) continue;
-    places.push_back(seen_px(camera, limit, middle));
-    displacements.push_back(seen_px(camera, limit, middle + half) - seen_px(camera, limit, middle - half));
+    places.push_back(seen_px(middle));
+    displacements.push_back(seen_px(middle + half) - seen_px(middle - half));
   }
   MotionField field;
   if (places.size() < 3) return field;
@@ -73,7 +67,7 @@ int LensBlurPlan::reach_px(const PixelRect& rect) const {
   return static_cast<int>(std::ceil(reach + std::min(longest, kMaxMotion_px) / 2)) + 2;
 }
 
-LensBlurPlan plan_lens_blur(const FrameView& view, const Bounds& box) {
+LensBlurPlan plan_lens_blur(const FrameView& view, const DistortionLimit& limit, const Bounds& box) {
   LensBlurPlan plan;
   if (view.lens.defocus_px2 > kMinDefocus_px2) plan.variance_px2 = std::min(view.lens.defocus_px2, kMaxDefocus_px2);
   const LensMotion& motion = view.lens.motion;
@@ -85,8 +79,8 @@ LensBlurPlan plan_lens_blur(const FrameView& view, const Bounds& box) {
     corners[i] = glm::mix(glm::dvec3(box.min_m), glm::dvec3(box.max_m), share);
     footprint[i] = glm::dvec3(glm::dvec2(corners[i]), 0.0);
   }
-  plan.object = fit_motion(view.camera, view.camera_from_tag, motion, corners);
-  plan.shadow = fit_motion(view.camera, view.camera_from_tag, motion, footprint);
+  plan.object = fit_motion(view.camera, limit, view.camera_from_tag, motion, corners);
+  plan.shadow = fit_motion(view.camera, limit, view.camera_from_tag, motion, footprint);
   plan.moves = std::max(glm::length(plan.object.displacement_px), glm::length(plan.shadow.displacement_px)) >= kMinMotion_px;
   return plan;
 }

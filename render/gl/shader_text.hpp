@@ -22,7 +22,7 @@ ShaderText shader_text(const std::string& name, const std::string& folder, const
 /// Throws Error where `folder` does not hold all files of shaders/.
 void check_shader_folder(const std::string& folder);
 
-/// A driver's log with the files' names in place of their numbers: "lens.glsl:23" for "2:23".
+/// A driver's log with the files' names in place of their numbers: "distortion.glsl:23" for "2:23".
 std::string with_file_names(std::string_view log, const ShaderText& text);
 
 /// Whether the text has a uniform of that name outside of blocks, be it used or not.

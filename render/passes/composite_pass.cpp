@@ -6,7 +6,6 @@
 #include "catchlight/camera.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/response.hpp"
-#include "render/camera/lens.hpp"
 #include "render/gl/read_back.hpp"
 
 namespace catchlight::render {
@@ -55,17 +54,10 @@ struct Vignetting {
   glm::vec4 terms{0, 0, 0, 1}, at{0};
 };
 
-Vignetting vignetting_of(const FrameView& view) {
-  Vignetting result;
-  const CameraModel& camera = view.camera;
-  if (camera.vignetting == glm::dvec3(0.0) || !(view.camera_from_tag.translation_m.z > 0)) return result;
-  const glm::dvec3 tag = distorted(camera, lens_limit(camera), view.camera_from_tag.translation_m);
-  const glm::dvec2 off_px = glm::dvec2(camera.fx_px * tag.x, camera.fy_px * tag.y) / tag.z;
-  const double at_tag = vignetting_at(camera, off_px + glm::dvec2(camera.cx_px, camera.cy_px));
-  if (!(at_tag > 0)) return result;
-  result.terms = glm::vec4(camera.vignetting, 1 / at_tag);
-  result.at = glm::vec4(camera.cx_px, camera.cy_px, 1 / half_diagonal_px2(camera), 0);
-  return result;
+Vignetting vignetting_of(const CameraModel& camera, double passed_at_tag) {
+  if (camera.vignetting == glm::dvec3(0.0) || !(passed_at_tag > 0)) return {};
+  return {glm::vec4(camera.vignetting, 1 / passed_at_tag),
+          glm::vec4(camera.cx_px, camera.cy_px, 1 / half_diagonal_px2(camera), 0)};
 }
 
 glm::ivec4 as_vector(const PixelRect& rect) {
@@ -122,7 +114,7 @@ void CompositePass::update_uniforms(const FrameView& view, const VirtualLayer& l
   block.black = glm::vec4(view.black, 0);
   block.receiver_light = glm::vec4(view.receiver_light, 0);
   block.code_limits = {changed_code_, static_cast<float>(kClippingCode), 0, 0};
-  const Vignetting vignetting = vignetting_of(view);
+  const Vignetting vignetting = vignetting_of(view.camera, layer.passed_at_tag);
   block.vignetting = vignetting.terms;
   block.vignetting_at = vignetting.at;
   const LensNoise& noise = view.lens.noise;

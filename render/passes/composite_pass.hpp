@@ -23,6 +23,7 @@ struct VirtualLayer {
   const GlTexture* shadow;
   const GlarePass* glare;                  ///< null: none drawn
   const GlTexture* pixel_glare = nullptr;  ///< stands for it where not null: glare of every pixel of the frame
+  double passed_at_tag = 0;  ///< share of light that vignetting leaves at the tag, where exposure is matched; 0: unknown
 };
 
 class CompositePass {

@@ -3,9 +3,8 @@
 
 #include <optional>
 
-#include "catchlight/camera.hpp"
+#include "catchlight/projection.hpp"
 #include "catchlight/rigid_transform.hpp"
-#include "render/camera/lens.hpp"
 
 namespace catchlight::render::reference {
 
@@ -22,10 +21,8 @@ class CameraRays {
   std::optional<glm::dvec2> pixel_of(const glm::dvec3& point_tag_m) const;
 
  private:
-  glm::dvec2 without_distortion(const glm::dvec2& seen) const;
-
   CameraModel camera_;
-  LensLimit limit_;
+  DistortionLimit limit_;
   RigidTransform camera_from_tag_;
   glm::dvec3 origin_tag_m_;
 };

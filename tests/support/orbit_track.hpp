@@ -11,10 +11,10 @@
 
 #include "app/track_export/track_export.hpp"
 #include "catchlight/camera.hpp"
+#include "catchlight/projection.hpp"
 #include "catchlight/rigid_transform.hpp"
 #include "catchlight/track.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "tracking/camera/lens.hpp"
 
 namespace catchlight::app::orbit_test {
 
@@ -88,7 +88,7 @@ inline std::string written(const std::string& name, const std::vector<TrackRow>&
 }
 
 inline glm::dvec2 seen_px(const TrackRow& row, const glm::dvec3& point_tag_m) {
-  return tracking::project_px(centred_camera(), row.camera_from_tag * point_tag_m).value();
+  return project_px(centred_camera(), row.camera_from_tag * point_tag_m).value();
 }
 
 /// v turned by the quaternion: v + 2 w (u x v) + 2 u x (u x v), u = (x, y, z).

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "catchlight/projection.hpp"
 #include "catchlight/tag.hpp"
 #include "catchlight/util/statistics.hpp"
-#include "tracking/camera/lens.hpp"
 
 namespace catchlight::tracking {
 namespace {

@@ -10,7 +10,6 @@
 #include "catchlight/response.hpp"
 #include "catchlight/rigid_transform.hpp"
 #include "catchlight/util/statistics.hpp"
-#include "tracking/camera/lens.hpp"
 #include "tracking/camera/photometry.hpp"
 #include "tracking/refinement/ideal_pixels.hpp"
 #include "tracking/refinement/tag_pattern.hpp"

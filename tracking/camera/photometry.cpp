@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "catchlight/color.hpp"
-#include "tracking/camera/lens.hpp"
+#include "catchlight/projection.hpp"
 #include "tracking/detection/families.hpp"
 #include "tracking/refinement/ideal_pixels.hpp"
 #include "tracking/refinement/tag_pattern.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tracking/camera/lens.hpp"
+#include "catchlight/projection.hpp"
 #include "tracking/detection/families.hpp"
 
 namespace catchlight::tracking {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <opencv2/calib3d.hpp>
 
+#include "catchlight/projection.hpp"
 #include "catchlight/tag.hpp"
-#include "tracking/camera/lens.hpp"
 
 namespace catchlight::tracking {
 namespace {

@@ -3,8 +3,8 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "catchlight/projection.hpp"
 #include "catchlight/response.hpp"
-#include "tracking/camera/lens.hpp"
 #include "tracking/refinement/edge_fit.hpp"
 
 namespace catchlight::tracking {

@@ -1,6 +1,6 @@
 #include "tracking/refinement/ideal_pixels.hpp"
 
-#include "tracking/camera/lens.hpp"
+#include "catchlight/projection.hpp"
 
 namespace catchlight::tracking {
 namespace {

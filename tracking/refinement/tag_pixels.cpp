@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "catchlight/pixel_rect.hpp"
-#include "tracking/camera/lens.hpp"
+#include "catchlight/projection.hpp"
 
 namespace catchlight::tracking {
 namespace {

@@ -1,7 +1,5 @@
 #include "tracking/refinement/tag_view.hpp"
 
-#include "tracking/camera/lens.hpp"
-
 namespace catchlight::tracking {
 
 TagView::TagView(const CameraModel& camera, const RigidTransform& camera_from_tag, double size_m, int cells_across)

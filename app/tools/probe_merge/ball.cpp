@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "catchlight/error.hpp"
-#include "tracking/camera/lens.hpp"
+#include "catchlight/projection.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -16,7 +16,7 @@ constexpr double kRimPx = 1.5;  ///< so near the silhouette, pixels hold some of
 }  // namespace
 
 glm::dvec3 ray_through(const CameraModel& camera, const glm::dvec2& px) {
-  const auto ideal = tracking::undistort_px(camera, px);
+  const auto ideal = undistort_px(camera, px);
   if (!ideal)
     throw Error("the ball's outline lies beyond what the camera file's lens can see; is it the camera of the photograph?");
   return glm::normalize(glm::dvec3((ideal->x - camera.cx_px) / camera.fx_px, (ideal->y - camera.cy_px) / camera.fy_px, 1));
@@ -106,7 +106,7 @@ BallSight BallView::sight(const glm::dvec3& direction_camera) const {
     return sight;
   }
   const glm::dvec3 point = (distance_radii_ - std::cos(angle)) * axis_ + std::sin(angle) * side;
-  sight.px = tracking::project_px(*camera_, point).value_or(circle_.centre_px);
+  sight.px = project_px(*camera_, point).value_or(circle_.centre_px);
   return sight;
 }
 

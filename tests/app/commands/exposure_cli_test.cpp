@@ -11,12 +11,12 @@
 
 #include "catchlight/camera.hpp"
 #include "catchlight/color.hpp"
+#include "catchlight/projection.hpp"
 #include "catchlight/track.hpp"
 #include "render/probe/probe.hpp"
 #include "tests/support/run_command.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tracking/camera/camera_file.hpp"
-#include "tracking/camera/lens.hpp"
 #include "tracking/track_file.hpp"
 
 namespace catchlight::tests {
@@ -124,7 +124,7 @@ class ExposureCommand : public ::testing::Test {
       share /= share.x + share.y + share.z + share.w;
       glm::dvec3 at(0);
       for (int corner = 0; corner < 4; ++corner) at += share[corner] * kPyramid_m[static_cast<std::size_t>(corner)];
-      const auto seen = tracking::project_px(camera, row.camera_from_tag * (stood_up * glm::mix(middle, at, 0.8)));
+      const auto seen = project_px(camera, row.camera_from_tag * (stood_up * glm::mix(middle, at, 0.8)));
       if (seen) pixels.emplace_back(cvRound(seen->x), cvRound(seen->y));
     }
     return pixels;

@@ -59,11 +59,12 @@ TEST_F(ShaderGl, UniformBlocksLieAsCppLaysThem) {
   using namespace shader_interface;
   ShaderLibrary shaders;
   const Program& object = shaders.program({.vertex = "object.vert", .fragment = "object.frag"});
-  expect_layout(object, "ViewUniforms", sizeof(ViewUniforms),
-                {MEMBER(ViewUniforms, clip_from_camera), MEMBER(ViewUniforms, camera_from_tag),
-                 MEMBER(ViewUniforms, light_from_tag), MEMBER(ViewUniforms, plate_from_rec709),
-                 MEMBER(ViewUniforms, camera_in_tag_m), MEMBER(ViewUniforms, exposure), MEMBER(ViewUniforms, radial_numerator),
-                 MEMBER(ViewUniforms, radial_denominator), MEMBER(ViewUniforms, tangential), MEMBER(ViewUniforms, lens_limit)});
+  expect_layout(
+      object, "ViewUniforms", sizeof(ViewUniforms),
+      {MEMBER(ViewUniforms, clip_from_camera), MEMBER(ViewUniforms, camera_from_tag), MEMBER(ViewUniforms, light_from_tag),
+       MEMBER(ViewUniforms, plate_from_rec709), MEMBER(ViewUniforms, camera_in_tag_m), MEMBER(ViewUniforms, exposure),
+       MEMBER(ViewUniforms, radial_numerator), MEMBER(ViewUniforms, radial_denominator), MEMBER(ViewUniforms, tangential),
+       MEMBER(ViewUniforms, distortion_limit)});
   const Program& transfer = shaders.program({.vertex = "transfer.vert", .captured = "transferred"});
   expect_layout(transfer, "LightUniforms", sizeof(LightUniforms),
                 {MEMBER(LightUniforms, count), {"coefficients[0]", offsetof(LightUniforms, coefficients)}});
@@ -198,16 +199,16 @@ TEST_F(ShaderGl, UniformsAreSetByName) {
 
 TEST_F(ShaderGl, AnErrorNamesFileAndLineAlsoWithinAnInclude) {
   ShaderFolder folder;
-  folder.write("lens.glsl", "vec4 clip_from_tag(vec3 p) {\n  return nonsense;\n}\n");
+  folder.write("distortion.glsl", "vec4 clip_from_tag(vec3 p) {\n  return nonsense;\n}\n");
   ShaderLibrary shaders(folder.path());
-  EXPECT_THAT(
-      [&] { shaders.program({.vertex = "object.vert", .fragment = "object.frag"}); },
-      ThrowsMessage<Error>(AllOf(HasSubstr("object.vert"), HasSubstr(folder.path() + "/lens.glsl:2"), HasSubstr("nonsense"))));
+  EXPECT_THAT([&] { shaders.program({.vertex = "object.vert", .fragment = "object.frag"}); },
+              ThrowsMessage<Error>(
+                  AllOf(HasSubstr("object.vert"), HasSubstr(folder.path() + "/distortion.glsl:2"), HasSubstr("nonsense"))));
 }
 
 TEST(ShaderLog, NamesFilesAsEachDriverCountsThem) {
-  const ShaderText text{"", {"a.frag", "interface.h", "lens.glsl"}};
-  EXPECT_EQ(with_file_names("2:23(9): error: oh", text), "lens.glsl:23(9): error: oh\n");
+  const ShaderText text{"", {"a.frag", "interface.h", "distortion.glsl"}};
+  EXPECT_EQ(with_file_names("2:23(9): error: oh", text), "distortion.glsl:23(9): error: oh\n");
   EXPECT_EQ(with_file_names("ERROR: 1:7: 'x' : oh", text), "interface.h:7: 'x' : oh\n");
   EXPECT_EQ(with_file_names("0(12) : error C1008: oh\nand more", text), "a.frag:12 : error C1008: oh\nand more\n");
 }

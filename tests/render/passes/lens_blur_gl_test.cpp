@@ -2,8 +2,8 @@
 #include "catchlight/camera.hpp"
 #include "catchlight/composite.hpp"
 #include "catchlight/plate.hpp"
+#include "catchlight/projection.hpp"
 #include "catchlight/rigid_transform.hpp"
-#include "render/camera/lens.hpp"
 #include "render/compositor.hpp"
 #include "render/frame_view.hpp"
 #include "render/passes/lens_blur_pass.hpp"
@@ -145,7 +145,7 @@ TEST_F(LensBlurGl, AStillViewIsTheSameToTheLastBit) {
   const Composite still = compositor.render(view, black());
   EXPECT_EQ(still.rgba, plain.rgba);
   EXPECT_EQ(compositor.pass_times().size(), passes) << "no pass for nothing";
-  EXPECT_TRUE(plan_lens_blur(linear_view_from_above(), {glm::vec3(-1), glm::vec3(1)}).empty());
+  EXPECT_TRUE(plan_lens_blur(linear_view_from_above(), distortion_limit({}), {glm::vec3(-1), glm::vec3(1)}).empty());
 }
 
 TEST_F(LensBlurGl, TheShadowIsBlurredAsTheObjectIs) {
@@ -188,8 +188,8 @@ TEST(MotionField, IsTheWayOfEveryPointOfAPlaneToAFiftiethOfTheLongest) {
   std::vector<glm::dvec3> points;
   for (const double x : {-0.05, 0.0, 0.05})
     for (const double y : {-0.05, 0.0, 0.05}) points.emplace_back(x, y, 0);
-  const MotionField field = fit_motion(camera, pose, motion, points);
-  const LensLimit limit = lens_limit(camera);
+  const DistortionLimit limit = distortion_limit(camera);
+  const MotionField field = fit_motion(camera, limit, pose, motion, points);
   const auto px = [&](const glm::dvec3& p) {
     const glm::dvec3 d = distorted(camera, limit, p);
     return glm::dvec2(600 * d.x / d.z + 319.5, 600 * d.y / d.z + 239.5);

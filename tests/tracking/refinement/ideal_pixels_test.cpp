@@ -1,43 +1,23 @@
 // The remembered pixels of a lens against the lens itself, and their slopes against finite differences.
 #include "tracking/refinement/ideal_pixels.hpp"
 #include "catchlight/camera.hpp"
+#include "catchlight/projection.hpp"
+#include "tests/support/finite_differences.hpp"
 #include "tests/support/synthetic_tag.hpp"
-#include "tracking/camera/lens.hpp"
 
 #include <gtest/gtest.h>
 
 namespace catchlight::tracking {
 namespace {
 
-void expect_near(const glm::dmat2& a, const glm::dmat2& b, double tolerance) {
-  for (int column = 0; column < 2; ++column)
-    for (int row = 0; row < 2; ++row) EXPECT_NEAR(a[column][row], b[column][row], tolerance) << column << ", " << row;
-}
+using tests::expect_near;
+using tests::finite_differences;
 
 /// Focal lengths that differ, so that a Jacobian cannot mix up its axes unnoticed.
 CameraModel wide_camera() {
   CameraModel camera = distorted_camera();
   camera.fy_px = 640;
   return camera;
-}
-
-template <class Map>
-glm::dmat2 finite_differences(const glm::dvec2& at, Map&& map) {
-  constexpr double kStep_px = 1e-2;
-  const glm::dvec2 x(kStep_px, 0), y(0, kStep_px);
-  return {(map(at + x) - map(at - x)) / (2 * kStep_px), (map(at + y) - map(at - y)) / (2 * kStep_px)};
-}
-
-TEST(Lens, ItsJacobianIsTheSlopeOfDistorting) {
-  const CameraModel camera = wide_camera();
-  for (double y = -60; y < 560; y += 77)
-    for (double x = -80; x < 720; x += 91)
-      expect_near(distortion_jacobian(camera, {x, y}),
-                  finite_differences({x, y}, [&](const glm::dvec2& px) { return distort_px(camera, px); }), 1e-6);
-}
-
-TEST(Lens, WithoutDistortionItsJacobianIsTheIdentity) {
-  expect_near(distortion_jacobian(plain_camera(), {12.5, 400}), glm::dmat2(1.0), 1e-15);
 }
 
 TEST(IdealPixels, AreTheUndistortedOnes) {

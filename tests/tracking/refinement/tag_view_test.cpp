@@ -1,10 +1,10 @@
 // The map between the picture and the tag's plane, as an inverse pair and against the lens's own projection.
 #include "tracking/refinement/tag_view.hpp"
 #include "catchlight/camera.hpp"
+#include "catchlight/projection.hpp"
 #include "catchlight/rigid_transform.hpp"
 #include "catchlight/track.hpp"
 #include "tests/support/synthetic_tag.hpp"
-#include "tracking/camera/lens.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// render/camera/lens.hpp's distorted(), see there.
+// The same as distorted() of catchlight/projection.hpp, see there.
 float radial_factor(float r2) {
   vec3 powers = vec3(r2, r2 * r2, r2 * r2 * r2);
   return (1.0 + dot(view.radial_numerator.xyz, powers)) / (1.0 + dot(view.radial_denominator.xyz, powers));
@@ -10,7 +10,7 @@ vec2 tangential_shift(vec2 p) {
 }
 
 vec3 distorted(vec3 p) {
-  float limit = view.lens_limit.x;
+  float limit = view.distortion_limit.x;
   float rho = length(p.xy);
   if (p.z > 0.0 && rho <= limit * p.z) {
     vec2 n = p.xy / p.z;
@@ -18,7 +18,7 @@ vec3 distorted(vec3 p) {
   }
   if (rho == 0.0) return p;
   vec2 direction = p.xy / rho;
-  float radius = view.lens_limit.y * p.z + view.lens_limit.z * (rho - limit * p.z);
+  float radius = view.distortion_limit.y * p.z + view.distortion_limit.z * (rho - limit * p.z);
   return vec3(direction * radius + tangential_shift(direction * limit) * p.z, p.z);
 }
 

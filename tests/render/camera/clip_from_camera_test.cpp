@@ -1,5 +1,5 @@
 // Camera frame to clip space, against OpenCV's own projection.
-#include "render/camera/lens.hpp"
+#include "render/camera/clip_from_camera.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/pixel_rect.hpp"
 #include "catchlight/rigid_transform.hpp"
@@ -31,11 +31,11 @@ glm::dvec2 pixel_by_opencv(const CameraModel& camera, const glm::dvec3& point) {
 }
 
 glm::dvec2 pixel_by_clip(const CameraModel& camera, const glm::dvec3& point) {
-  const glm::dvec4 clip = clip_from_camera(camera, 0.01) * glm::dvec4(distorted(camera, lens_limit(camera), point), 1.0);
+  const glm::dvec4 clip = clip_from_camera(camera, 0.01) * glm::dvec4(distorted(camera, distortion_limit(camera), point), 1.0);
   return (glm::dvec2(clip) / clip.w + 1.0) / 2.0 * glm::dvec2(camera.width_px, camera.height_px) - 0.5;
 }
 
-TEST(Lens, ProjectsAsOpenCvDoes) {
+TEST(ClipFromCamera, ProjectsAsOpenCvDoes) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> xy(-0.5, 0.5), z(0.5, 3);
   for (const auto& distortion : {std::array<double, 8>{}, kBarrel, kRational}) {
@@ -49,30 +49,7 @@ TEST(Lens, ProjectsAsOpenCvDoes) {
   }
 }
 
-TEST(Lens, NeitherFoldsBackNorBreaksBeyondItsLimit) {
-  const CameraModel camera = camera_with(kBarrel);
-  const LensLimit limit = lens_limit(camera);
-  double last = 0;
-  for (double r = 0.001; r < 100; r *= 1.01) {
-    const double now = distorted(camera, limit, {r, 0, 1}).x;
-    EXPECT_GT(now, last) << "at radius " << r;
-    last = now;
-  }
-  const glm::dvec3 inside = distorted(camera, limit, {limit.radius - 1e-9, 0, 1}),
-                   outside = distorted(camera, limit, {limit.radius + 1e-9, 0, 1});
-  EXPECT_NEAR(inside.x, outside.x, 1e-8);
-}
-
-TEST(Lens, PointsBehindTheCameraStayFinite) {
-  const CameraModel camera = camera_with(kBarrel);
-  for (const glm::dvec3& point : {glm::dvec3(0, 0, 0), glm::dvec3(0, 0, -1), glm::dvec3(1, 2, 0), glm::dvec3(-1, 0.5, -0.3)}) {
-    const glm::dvec3 result = distorted(camera, lens_limit(camera), point);
-    EXPECT_TRUE(std::isfinite(result.x) && std::isfinite(result.y)) << point.x << " " << point.y << " " << point.z;
-    EXPECT_EQ(result.z, point.z);
-  }
-}
-
-TEST(Lens, DepthIsReversedAndHasNoFarEnd) {
+TEST(ClipFromCamera, DepthIsReversedAndHasNoFarEnd) {
   const glm::dmat4 clip = clip_from_camera(camera_with({}), 0.01);
   const auto depth = [&](double z) {
     const glm::dvec4 p = clip * glm::dvec4(0, 0, z, 1);
@@ -96,7 +73,8 @@ TEST(VisibleRect, HoldsEveryProjectionOfTheBox) {
         for (int column = 0; column < 3; ++column) camera_from_tag.rotation[column][row] = r(row, column);
       camera_from_tag.translation_m = {shift(random), shift(random), depth(random)};
       const glm::dvec3 low(-0.1, -0.05, 0), high(0.1, 0.08, 0.12);
-      const PixelRect rect = visible_rect(camera, camera_from_tag, {glm::vec3(low), glm::vec3(high)}, 0.001);
+      const PixelRect rect =
+          visible_rect(camera, distortion_limit(camera), camera_from_tag, {glm::vec3(low), glm::vec3(high)}, 0.001);
       for (int k = 0; k < 50; ++k) {
         const glm::dvec3 p = camera_from_tag * glm::mix(low, high, glm::dvec3(share(random), share(random), share(random)));
         const glm::dvec2 pixel = pixel_by_clip(camera, p);
@@ -112,8 +90,8 @@ TEST(VisibleRect, IsEmptyBehindTheCameraAndWholeAcrossItsPlane) {
   const Bounds box{glm::vec3(-0.1f), glm::vec3(0.1f)};
   RigidTransform behind, across;
   behind.translation_m = {0, 0, -1};
-  EXPECT_TRUE(visible_rect(camera, behind, box, 0.001).empty());
-  EXPECT_EQ(visible_rect(camera, across, box, 0.001), (PixelRect{0, 0, 640, 480}));
+  EXPECT_TRUE(visible_rect(camera, distortion_limit(camera), behind, box, 0.001).empty());
+  EXPECT_EQ(visible_rect(camera, distortion_limit(camera), across, box, 0.001), (PixelRect{0, 0, 640, 480}));
 }
 
 }  // namespace
