@@ -8,14 +8,11 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "app/media/read/source.hpp"
-#include "app/session/overlay.hpp"
-#include "catchlight/camera.hpp"
+#include "app/session/session.hpp"
 #include "catchlight/color.hpp"
 #include "catchlight/composite.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/image.hpp"
-#include "catchlight/track.hpp"
 #include "render/compositor.hpp"
 #include "render/probe/probe_split.hpp"
 #include "render/render_scene.hpp"
@@ -56,77 +53,63 @@ cv::Mat coded(const Image& linear, double gain) {
   return codes;
 }
 
-/// Keeps what a frame was made of.
-class LayersOutput : public FrameOutput {
- public:
-  bool wants_layers() const override { return true; }
-  void write(const Frame&, const Composite& composite) override { layers = composite.layers; }
-
-  std::optional<Layers> layers;
-};
-
 render::Probe difference(const render::Probe& whole, const render::Probe& rest) {
   render::Probe lights = whole;
   for (std::size_t i = 0; i < lights.image.data.size(); ++i) lights.image.data[i] -= rest.image.data[i];
   return lights;
 }
 
+Recording without_glare(const std::string& location) {
+  Recording recording = open_recording(location);
+  recording.scene.glare.enabled = false;  // the truth has none
+  return recording;
+}
+
 class Studio {
  public:
-  explicit Studio(const std::string& location) : recording_(open_recording(location)) {
-    recording_.scene.glare.enabled = false;  // the truth has none
-    stage_ = build_stage(recording_.scene, log_, report_);
-    const std::unique_ptr<MediaSource> source = open_footage(recording_);
-    camera_ = camera_for_footage(recording_, source->info().width_px, source->info().height_px);
-    rows_ = solve_track(*source, camera_, recording_.scene, range_, log_, report_).rows;
-    on_tag_ = stage_.built.still_irradiance_over_pi;
+  explicit Studio(const std::string& location)
+      : session_(without_glare(location), {.range = {kFrame, kFrame + 1}, .wants_layers = true}, log_) {
+    session_.prepare();
+    do job_ = session_.decode().value();
+    while (session_.track(*job_), job_->is_before_range);
+    session_.view(*job_);
+    if (!job_->track.found) throw Error(location + ": no tag in frame " + std::to_string(kFrame));
   }
 
-  const BuiltScene& built() const { return stage_.built; }
-  const SceneSettings& settings() const { return recording_.scene; }
+  const BuiltScene& built() const { return session_.renderer().builder().scene(); }
+  const SceneSettings& settings() const { return session_.settings(); }
 
   /// The light on the tag that `probe` brings.
   glm::dvec3 share_of(const render::Probe& probe) const {
-    const glm::dvec3 up = glm::transpose(built().light_from_probe) * glm::dvec3(0, 0, 1);
-    return render::irradiance(probe, up) / glm::pi<double>() / on_tag_;
+    const glm::dvec3 up = glm::transpose(built().orientation.light_from_probe) * glm::dvec3(0, 0, 1);
+    return render::irradiance(probe, up) / glm::pi<double>() / built().still_irradiance_over_pi;
   }
 
   /// The whole frame, linear, as if the place had that part of its light alone: the plate is that much darker, and what is
   /// exposed by the tag on it that much brighter, before all of it is put back to the exposure of the whole.
   Image frame(const Part& part) {
-    render::CompositorSettings settings;
-    settings.glare = recording_.scene.glare;
-    settings.samples = recording_.scene.quality.samples;
-    settings.reflection_rays = recording_.scene.quality.reflection_rays;
-    stage_.compositor = std::make_unique<render::Compositor>(part.scene, settings);
-    stage_.built.still_irradiance_over_pi = on_tag_ * part.share;
-    LayersOutput output;
-    const std::unique_ptr<FrameTrack> track = make_recorded_track(rows_, camera_, recording_.scene);
-    run_overlay(*open_footage(recording_), *track, stage_, recording_.scene, camera_, output, range_, log_, report_);
-    if (!output.layers) throw Error(recording_.name + ": no tag in frame " + std::to_string(kFrame));
-    return exposed(*output.layers, part.share);
+    render::FrameView view = job_->view;
+    view.exposure /= glm::vec3(part.share);
+    const auto plate = [&](const PixelRect& rect) { return job_->image.rgb(rect); };
+    render::Compositor compositor(part.scene, compositor_settings(settings()));
+    return exposed(*compositor.render(view, plate, true).layers, part.share);
   }
 
   cv::Mat truth() const {
-    const std::string file = recording_.truth_folder.value_or("") + "/0016.png";
+    const std::string file = session_.recording().truth_folder.value_or("") + "/0016.png";
     cv::Mat picture = cv::imread(file, cv::IMREAD_COLOR);
     if (picture.empty()) throw Error(file + ": cannot be read");
     return picture;
   }
 
  private:
-  Recording recording_;
   Log log_;
-  Report report_;
-  Stage stage_;
-  CameraModel camera_;
-  std::vector<TrackRow> rows_;
-  FrameRange range_{kFrame, kFrame + 1};
-  glm::dvec3 on_tag_{0};
+  Session session_;
+  std::optional<FrameJob> job_;
 };
 
 Part lights_alone(const Studio& studio, const render::SplitProbe& split) {
-  const glm::dmat3& turn = studio.built().light_from_probe;
+  const glm::dmat3& turn = studio.built().orientation.light_from_probe;
   const render::Probe lights = difference(studio.built().probe, split.rest);
   Part part{studio.built().scene, studio.share_of(lights)};
   part.scene.light = render::project_to_sh(part.scene.lights, part.scene.transfer.bands);
@@ -139,7 +122,7 @@ Part rest_alone(const Studio& studio, const render::SplitProbe& split) {
   Part part{studio.built().scene, studio.share_of(split.rest)};
   const render::ShRgb lights = render::project_to_sh(part.scene.lights, part.scene.transfer.bands);
   for (std::size_t i = 0; i < lights.size(); ++i) part.scene.light[i] -= lights[i];
-  part.scene.reflections = render::prefilter_reflections(split.rest, studio.built().light_from_probe);
+  part.scene.reflections = render::prefilter_reflections(split.rest, studio.built().orientation.light_from_probe);
   part.scene.lights.clear();
   part.scene.rest_reflections = {};
   return part;

@@ -35,6 +35,8 @@ struct GlareSettings {
   std::string aperture = "none";  ///< or what aperture_picture() takes
   double aperture_mm = 2;         ///< width of its picture
   double aperture_strength = 1;   ///< 1: as much as the aperture diffracts
+
+  bool operator==(const GlareSettings&) const = default;
 };
 
 /// `classic`: bloom and streaks of the whole picture as in render/passes/glare/classic_glare.hpp, instead of those of the
@@ -52,6 +54,8 @@ struct CompositorSettings {
   int reflection_rays =
       16;  ///< over the lobe of a rough surface; 0: only the probe is mirrored, neither the object nor the receiver
   std::string shader_folder;  ///< overrides the embedded shaders where not empty
+
+  bool operator==(const CompositorSettings&) const = default;
 };
 
 }  // namespace catchlight::render

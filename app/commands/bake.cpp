@@ -4,7 +4,8 @@
 #include <memory>
 
 #include "app/commands/commands.hpp"
-#include "app/session/scene_build.hpp"
+#include "app/session/recording.hpp"
+#include "app/session/scene_builder.hpp"
 #include "app/support/progress.hpp"
 #include "catchlight/util/text.hpp"
 #include "render/render_scene.hpp"
@@ -20,7 +21,8 @@ struct Arguments {
 void bake(const Arguments& arguments, Log& log) {
   const Recording recording = open_recording(arguments.location, arguments.overrides);
   const auto start = std::chrono::steady_clock::now();
-  const BuiltScene built = build_render_scene(recording.scene, log.warning_handler(), progress_handler(log, "bake"));
+  SceneBuilder builder;
+  const BuiltScene& built = builder.build(recording.scene, log.warning_handler(), progress_handler(log, "bake"));
   const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const render::RenderScene& scene = built.scene;
   log.info(recording.name + ": " + std::to_string(scene.mesh.vertices.size()) + " vertices, " +

@@ -1,15 +1,15 @@
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <memory>
 
 #include "app/commands/commands.hpp"
-#include "app/session/overlay.hpp"
-#include "app/settings/look.hpp"
+#include "app/commands/finish_report.hpp"
+#include "app/media/write/frame_output.hpp"
+#include "app/session/debug_drawing.hpp"
+#include "app/session/session.hpp"
 #include "app/support/output_file.hpp"
 #include "app/track_export/track_export.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/error.hpp"
-#include "tracking/track_file.hpp"
 
 namespace catchlight::app {
 
@@ -22,22 +22,9 @@ struct Options {
   bool causal = false, debug = false;
 };
 
-/// Recorded footage is tracked as a whole before its first frame is drawn.
-std::unique_ptr<FrameTrack> open_track(const Options& options, const Recording& recording, const CameraModel& camera,
-                                       bool is_live, const FrameRange& range, Context& context, Report& report) {
-  if (!options.track_in.empty()) return make_recorded_track(tracking::read_track_file(options.track_in), camera, recording.scene);
-  if (options.causal || is_live) return make_tag_track(camera, recording.scene);
-  // Adapting exposure needs the poses of all that comes before, too.
-  const FrameRange posed = tone_settings(recording.scene).enabled ? FrameRange{.end = range.end} : range;
-  Report tracking;
-  const OverlayResult solved = solve_track(*open_footage(recording), camera, recording.scene, posed, context.log, tracking);
-  report.stages = tracking.stages;
-  return make_recorded_track(solved.rows, camera, recording.scene);
-}
-
-void overlay(const Options& options, Context& context) {
-  const FrameRange range = parse_frame_range(options.frames);
-  if (options.debug && std::filesystem::path(options.output).extension() == ".exr")
+/// What can be refused before the footage is opened.
+void check(const Options& options) {
+  if (options.debug && holds_layers(options.output))
     throw UsageError("--debug draws on pictures, and " + options.output +
                      " is layers; choose a video or %04d.png, or leave --debug out");
   if (!options.track_out.empty()) {
@@ -45,29 +32,43 @@ void overlay(const Options& options, Context& context) {
     check_output_path(options.track_out, options.sink.overwrite);
   }
   if (!options.report.empty()) check_output_path(options.report, options.sink.overwrite);
-  const Recording recording = open_recording(options.recording, options.overrides);
-  const std::unique_ptr<MediaSource> source = open_footage(recording, context.log.warning_handler());
-  const CameraModel camera = camera_for_footage(recording, source->info().width_px, source->info().height_px);
+}
+
+void draw_frames(Session& session, FrameOutput& output, bool draws_debug) {
+  while (std::optional<FrameJob> job = session.decode()) {
+    session.track(*job);
+    if (job->is_before_range) {
+      session.skip(*job);
+      continue;
+    }
+    session.render(*job);
+    if (draws_debug) draw_debug(job->image, job->track, session.camera(), session.settings().tag.size_m, job->result);
+    session.measure("encode", [&] { output.write(job->image, job->result); });
+  }
+  output.finish();
+}
+
+void overlay(const Options& options, Context& context) {
+  const FrameRange range = parse_frame_range(options.frames);
+  check(options);
+  Session session(open_recording(options.recording, options.overrides),
+                  {.range = range,
+                   .track_file = options.track_in,
+                   .is_causal = options.causal,
+                   .wants_layers = holds_layers(options.output),
+                   .keeps_track = !options.track_out.empty()},
+                  context.log);
   SinkOptions sink = options.sink;
   sink.frames = range;
-  const std::unique_ptr<FrameOutput> output = open_output(options.output, recording.footage, *source, sink);
+  const std::unique_ptr<FrameOutput> output = open_output(options.output, session.recording().footage, session.footage(), sink);
+  session.prepare();
+  draw_frames(session, *output, options.debug);
 
-  Report report;
-  const std::unique_ptr<FrameTrack> track =
-      open_track(options, recording, camera, source->info().is_live, range, context, report);
-  Stage stage = build_stage(recording.scene, context.log, report);
-  stage.draws_debug = options.debug;
-  const OverlayResult result = run_overlay(*source, *track, stage, recording.scene, camera, *output, range, context.log, report);
   if (!options.track_out.empty())
-    write_track(options.track_out, result.rows, {camera, recording.scene, source->info().is_sequence}, options.sink.overwrite,
+    write_track(options.track_out, session.track_rows(),
+                {session.camera(), session.settings(), session.footage().info().is_sequence}, options.sink.overwrite,
                 context.log.warning_handler());
-  report.warnings = context.log.warnings();
-  if (!options.report.empty()) write_report(options.report, report, options.sink.overwrite);
-  context.log.info(report_summary(report));
-  if (result.damage) {
-    context.log.error(*result.damage);
-    context.exit_code = 1;
-  }
+  finish_report(session, options.report, options.sink.overwrite, context);
 }
 
 }  // namespace

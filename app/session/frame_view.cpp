@@ -182,4 +182,21 @@ std::vector<PlanEntry> lens_plan(const SceneSettings::Lens& settings, const std:
           chroma_entry(settings.chroma_subsampling, frame.color_block_shift())};
 }
 
+render::FrameView frame_view(const Frame& frame, const TrackRow& row, const CameraModel& camera, const SceneSettings& scene,
+                             const BuiltScene& built) {
+  render::FrameView view;
+  view.camera = scene.lens.as_drawn(camera);
+  view.color = frame.color();
+  view.has_pose = row.found;
+  if (!row.found) return view;
+  view.camera_from_tag = row.camera_from_tag;
+  const LayerExposure exposure = layer_exposure(scene.exposure, row, tag_irradiance_over_pi(built, row.camera_from_tag));
+  view.exposure = exposure.gain;
+  view.black = exposure.black;
+  if (row.has_exposure) view.receiver_light = row.exposure * scene.receiver.albedo + row.black;
+  view.tag_from_light = built.orientation.tag_from_light(row.camera_from_tag.rotation);
+  view.lens = lens_view(scene.lens, row, frame);
+  return view;
+}
+
 }  // namespace catchlight::app

@@ -2,11 +2,14 @@
 #pragma once
 
 #include "app/media/pixels/frame.hpp"
-#include "app/session/report.hpp"
+#include "app/session/plan.hpp"
+#include "app/session/scene_builder.hpp"
 #include "app/settings/scene_settings.hpp"
+#include "catchlight/camera.hpp"
 #include "catchlight/plate.hpp"
 #include "catchlight/track.hpp"
 #include "render/camera/lens_view.hpp"
+#include "render/frame_view.hpp"
 
 namespace catchlight::app {
 
@@ -45,5 +48,11 @@ render::LensView lens_view(const SceneSettings::Lens& settings, const TrackRow& 
 /// Which effects are on, by what figure, and why.
 std::vector<PlanEntry> lens_plan(const SceneSettings::Lens& settings, const std::vector<TrackRow>& rows, const Frame& frame,
                                  const glm::dvec3& vignetting);
+
+/// The camera of the frame: pose, exposure, black, and what the lens does, each as far as the settings want it. Every command
+/// that draws a frame, and the reference that it is compared with, sees it by this. No tone curve is set. `built` needs its files
+/// loaded.
+render::FrameView frame_view(const Frame& frame, const TrackRow& row, const CameraModel& camera, const SceneSettings& scene,
+                             const BuiltScene& built);
 
 }  // namespace catchlight::app

@@ -5,7 +5,6 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "app/session/frame_view.hpp"
-#include "app/session/scene_build.hpp"
 #include "app/support/output_file.hpp"
 #include "catchlight/plate.hpp"
 #include "render/reference/path_tracer.hpp"
@@ -24,12 +23,10 @@ struct PixelExposure {
   glm::dvec3 gain(int x, int y) const { return at_tag.gain * (vignetting_at(camera, {x, y}) / passed_at_tag); }
 };
 
-PixelExposure exposure_of(const reference::ReferenceScene& scene, const SceneSettings& settings, const CameraModel& camera,
-                          const TrackRow& row) {
-  const std::optional<glm::dvec2> tag_px = reference::CameraRays(camera, row.camera_from_tag).pixel_of(glm::dvec3(0.0));
-  const glm::dvec3 on_tag = render::irradiance(scene.probe, glm::transpose(scene.tag_from_probe) * glm::dvec3(0, 0, 1));
-  PixelExposure exposure{layer_exposure(settings.exposure, row, on_tag / glm::pi<double>()), camera};
-  const double passed_at_tag = tag_px ? vignetting_at(camera, *tag_px) : 0;
+PixelExposure exposure_of(const render::FrameView& view) {
+  const std::optional<glm::dvec2> tag_px = reference::CameraRays(view.camera, view.camera_from_tag).pixel_of(glm::dvec3(0.0));
+  PixelExposure exposure{{view.exposure, view.black}, view.camera};
+  const double passed_at_tag = tag_px ? vignetting_at(view.camera, *tag_px) : 0;
   if (passed_at_tag > 0)
     exposure.passed_at_tag = passed_at_tag;
   else
@@ -37,13 +34,12 @@ PixelExposure exposure_of(const reference::ReferenceScene& scene, const SceneSet
   return exposure;
 }
 
-reference::ReferenceScene traced_scene(const SceneSettings& settings, const TrackRow& row, const WarningHandler& warn) {
+reference::ReferenceScene traced_scene(const SceneSettings& settings, const BuiltScene& built, const render::FrameView& view) {
   reference::ReferenceScene scene;
-  scene.mesh = build_mesh(settings, warn);
-  scene.probe = load_scaled_probe(settings, warn);
-  scene.tag_from_probe = light_from_probe(settings.probe);
-  if (settings.probe.fixed_to == LightFrame::camera)
-    scene.tag_from_probe = glm::transpose(row.camera_from_tag.rotation) * scene.tag_from_probe;
+  scene.mesh = built.scene.mesh;
+  scene.probe = built.probe;
+  for (float& value : scene.probe.image.data) value *= static_cast<float>(built.light_gain);
+  scene.tag_from_probe = view.tag_from_light * built.orientation.light_from_probe;
   scene.has_receiver = settings.receiver.plane == ReceiverPlane::tag;
   scene.probe_in_tag_m = probe_in_tag_m(scene.mesh);
   return scene;
@@ -81,21 +77,21 @@ void put_in(const reference::ReferencePicture& traced, const PixelExposure& expo
 
 }  // namespace
 
-Image trace_reference_frame(const Frame& frame, const TrackRow& row, const CameraModel& camera, const SceneSettings& settings,
-                            const ReferenceQuality& quality, const WarningHandler& warn, const ProgressHandler& progress) {
-  const CameraModel drawn = settings.lens.as_drawn(camera);
-  Image plate(frame.width_px(), frame.height_px());
-  plate.data = linear_rgb(frame.rgb({0, 0, plate.width, plate.height}), frame.color());
+Image trace_reference_frame(const FrameJob& job, const SceneSettings& settings, const BuiltScene& built,
+                            const ReferenceQuality& quality, const ProgressHandler& progress) {
+  const render::FrameView& view = job.view;
+  Image plate(job.image.width_px(), job.image.height_px());
+  plate.data = linear_rgb(job.image.rgb({0, 0, plate.width, plate.height}), job.image.color());
 
-  reference::ReferenceScene scene = traced_scene(settings, row, warn);
-  const PixelExposure exposure = exposure_of(scene, settings, drawn, row);
-  scene.frame = {radiance_of(plate, exposure), drawn, row.camera_from_tag};
+  reference::ReferenceScene scene = traced_scene(settings, built, view);
+  const PixelExposure exposure = exposure_of(view);
+  scene.frame = {radiance_of(plate, exposure), view.camera, view.camera_from_tag};
   scene.unlit_radiance = 1.0 / glm::max(exposure.at_tag.gain, 1e-20);
   reference::TraceOptions options;
   options.samples = quality.samples;
   options.bounces = quality.bounces;
   const reference::ReferencePicture traced =
-      reference::PathTracer(std::move(scene), options).render(drawn, row.camera_from_tag, progress);
+      reference::PathTracer(std::move(scene), options).render(view.camera, view.camera_from_tag, progress);
 
   put_in(traced, exposure, plate);
   return plate;

@@ -1,13 +1,11 @@
 // A frame of footage with the object path traced into it.
 #pragma once
 
-#include "app/media/pixels/frame.hpp"
+#include "app/session/frame_job.hpp"
+#include "app/session/scene_builder.hpp"
 #include "app/settings/scene_settings.hpp"
-#include "catchlight/camera.hpp"
-#include "catchlight/error.hpp"
 #include "catchlight/image.hpp"
 #include "catchlight/progress.hpp"
-#include "catchlight/track.hpp"
 
 namespace catchlight::app {
 
@@ -16,11 +14,11 @@ struct ReferenceQuality {
   int bounces = 6;
 };
 
-/// Exposed linear light, Rec. 709, the whole frame: where the object changes nothing it is the frame's own. Pose and exposure are
-/// those of `row`, which has found the tag. The receiver's own light is read from the frame, so what the camera clipped stays
-/// clipped. Throws Error naming the file at fault.
-Image trace_reference_frame(const Frame& frame, const TrackRow& row, const CameraModel& camera, const SceneSettings& scene,
-                            const ReferenceQuality& quality, const WarningHandler& warn, const ProgressHandler& progress);
+/// Exposed linear light, Rec. 709, the whole frame: where the object changes nothing it is the frame's own. The frame's view is
+/// set, and the tag is found in it. The receiver's own light is read from the frame, so what the camera clipped stays clipped.
+/// `built` needs its files loaded.
+Image trace_reference_frame(const FrameJob& job, const SceneSettings& settings, const BuiltScene& built,
+                            const ReferenceQuality& quality, const ProgressHandler& progress);
 
 /// In the frame's own coding: PNG of 8 bits a channel, or 16 where the footage has more than 8. Written beside and renamed.
 /// Throws Error, or UsageError where `path` exists and `overwrite` is false.

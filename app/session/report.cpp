@@ -35,19 +35,34 @@ void StageTimer::add(const std::string& stage, double ms) {
   const auto known =
       std::find_if(samples_ms_.begin(), samples_ms_.end(), [&](const auto& entry) { return entry.first == stage; });
   if (known != samples_ms_.end())
-    known->second.push_back(ms);
+    known->second.add(ms);
   else
-    samples_ms_.push_back({stage, {ms}});
+    samples_ms_.push_back({stage, {}}), samples_ms_.back().second.add(ms);
 }
 
 std::vector<StageTimer::Summary> StageTimer::summaries() const {
   std::vector<Summary> summaries;
   for (const auto& [stage, samples] : samples_ms_) {
-    std::vector<double> sorted = samples;
+    std::vector<double> sorted = samples.values();
     std::sort(sorted.begin(), sorted.end());
     summaries.push_back({stage, percentile(sorted, 0.5), percentile(sorted, 0.95)});
   }
   return summaries;
+}
+
+void Report::count(const TrackRow& row) {
+  ++frames;
+  switch (row.state) {
+    case TrackState::tracking:
+      ++tracked_frames;
+      break;
+    case TrackState::coasting:
+      ++coasting_frames;
+      break;
+    case TrackState::lost:
+      ++lost_frames;
+      break;
+  }
 }
 
 std::string report_json(const Report& report) {

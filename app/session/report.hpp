@@ -7,12 +7,11 @@
 #include <utility>
 #include <vector>
 
-namespace catchlight::app {
+#include "app/session/plan.hpp"
+#include "catchlight/track.hpp"
+#include "catchlight/util/thinned_sample.hpp"
 
-/// One choice of the plan, e.g. {"bands", "6", "set in the scene file"}.
-struct PlanEntry {
-  std::string choice, value, reason;
-};
+namespace catchlight::app {
 
 /// Milliseconds by stage; the stages keep the order in which they first came.
 class StageTimer {
@@ -40,18 +39,21 @@ class StageTimer {
     std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
     ~Running() { timer.add(stage, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count()); }
   };
-  std::vector<std::pair<std::string, std::vector<double>>> samples_ms_;
+  std::vector<std::pair<std::string, ThinnedSample<double>>> samples_ms_;
 };
 
 struct Report {
   std::int64_t frames = 0, tracked_frames = 0, coasting_frames = 0, lost_frames = 0;
   std::int64_t glare_frames = 0;  ///< in which glare was drawn
   double glare_share = 0;         ///< of the frame that it reached in those, on average
-  double fps = 0;                 ///< frames a second of wall-clock time, scene building left out
-  std::string renderer;           ///< GL_RENDERER
+  double fps = 0;        ///< frames a second of wall-clock time over all that was done: tracking, building, drawing, encoding
+  std::string renderer;  ///< GL_RENDERER
   StageTimer stages;
   std::vector<PlanEntry> plan;
   std::vector<std::string> warnings;
+
+  /// Counts a frame by what became of its tag.
+  void count(const TrackRow& row);
 };
 
 /// JSON: frames, tracked_frames, coasting_frames, lost_frames, glare.{frames,share}, fps, renderer,

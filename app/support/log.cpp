@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <utility>
@@ -25,8 +26,9 @@ void Log::info(const std::string& message) {
 }
 
 void Log::warn(const std::string& message) {
-  warnings_.push_back(message);
-  if (!quiet_) print("catchlight: warning: ", kYellow, message);
+  if (warnings_.size() > kMaxWarnings || std::ranges::find(warnings_, message) != warnings_.end()) return;
+  warnings_.push_back(warnings_.size() < kMaxWarnings ? message : "there are more warnings than are shown");
+  if (!quiet_) print("catchlight: warning: ", kYellow, warnings_.back());
 }
 
 void Log::error(const std::string& message) {

@@ -11,11 +11,16 @@ namespace catchlight::app {
 /// Colours only on a terminal and without NO_COLOR (https://no-color.org).
 class Log {
  public:
+  static constexpr std::size_t kMaxWarnings = 200;
+
   void set_quiet(bool quiet) { quiet_ = quiet; }
   bool quiet() const { return quiet_; }
 
   void info(const std::string& message);  ///< not when quiet
-  void warn(const std::string& message);  ///< kept for the report also when quiet
+
+  /// Kept for the report also when quiet. What was said before is not said again, and at most kMaxWarnings are kept: a camera may
+  /// run for days.
+  void warn(const std::string& message);
   void error(const std::string& message);
 
   /// Valid as long as the log.

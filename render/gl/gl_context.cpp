@@ -86,6 +86,11 @@ class HeadlessContext : public GlContext {
     if (eglGetCurrentContext() == context_) eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglDestroyContext(display_, context_);
   }
+  void make_current() override {
+    if (eglGetCurrentContext() == context_) return;
+    if (!eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
+      throw Error("the OpenGL context cannot be made current; another thread may be drawing with it");
+  }
   HeadlessContext(const HeadlessContext&) = delete;
   HeadlessContext& operator=(const HeadlessContext&) = delete;
 

@@ -6,10 +6,13 @@
 
 namespace catchlight::render {
 
-/// Current on the creating thread while it lives. Everything made in it must be gone before it goes.
+/// Current on the creating thread until another is made or made current there. Everything made in it must be gone before it goes.
 class GlContext {
  public:
   virtual ~GlContext() = default;
+
+  /// Makes it the calling thread's; cheap where it already is. Throws Error where another thread has it.
+  virtual void make_current() = 0;
 };
 
 struct GlInfo {

@@ -38,6 +38,8 @@ struct ToneSettings {
   bool enabled = false;
   double key = 0.18;            ///< what the log-average becomes
   bool has_white_point = true;  ///< false: nothing burns out, L / (1 + L)
+
+  bool operator==(const ToneSettings&) const = default;
 };
 
 /// The curve that a frame calls for. gain = key / average, at most 2^6: what is darker is noise. White is the 2002 estimate

@@ -44,7 +44,6 @@ class ExrLayerOutput : public FrameOutput {
  public:
   ExrLayerOutput(SequencePattern pattern, bool overwrite) : pattern_(std::move(pattern)), overwrite_(overwrite) {}
 
-  bool wants_layers() const override { return true; }
 
   void write(const Frame& frame, const Composite& composite) override {
     const std::string path = pattern_.file(frame.number()).string();

@@ -1,4 +1,4 @@
-// Where finished frames go: an encoder, EXR layers, or a comparison with truth.
+// Where finished frames go: an encoder or EXR layers.
 #pragma once
 
 #include <memory>
@@ -15,18 +15,15 @@ class FrameOutput {
  public:
   virtual ~FrameOutput() = default;
 
-  /// Frames that are not wanted are tracked, but neither drawn nor written.
-  virtual bool wants_frame(std::int64_t /*number*/) const { return true; }
-
-  /// Whether write() needs composite.layers.
-  virtual bool wants_layers() const { return false; }
-
   /// `composite.rect` is empty where nothing virtual reached the frame: it passes through as it is.
   virtual void write(const Frame& plate, const Composite& composite) = 0;
 
   /// Puts the result under its name.
   virtual void finish() {}
 };
+
+/// Whether an output of that name is layers for compositing packages (`.exr`), which write() needs in composite.layers.
+bool holds_layers(const std::string& path);
 
 /// `%04d.exr` becomes EXR layers, anything else goes through MediaSink.
 std::unique_ptr<FrameOutput> open_output(const std::string& path, const std::string& source_location, const MediaSource& source,

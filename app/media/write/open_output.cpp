@@ -23,9 +23,13 @@ class MediaOutput : public FrameOutput {
 
 }  // namespace
 
+bool holds_layers(const std::string& path) {
+  return std::filesystem::path(path).extension() == ".exr";
+}
+
 std::unique_ptr<FrameOutput> open_output(const std::string& path, const std::string& source_location, const MediaSource& source,
                                          const SinkOptions& options) {
-  if (std::filesystem::path(path).extension() == ".exr") return open_exr_layers(path, source_location, source.info(), options);
+  if (holds_layers(path)) return open_exr_layers(path, source_location, source.info(), options);
   return std::make_unique<MediaOutput>(MediaSink::open(path, source_location, source, options));
 }
 

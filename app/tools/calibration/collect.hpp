@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "app/media/frame_range.hpp"
 #include "app/media/read/source.hpp"
-#include "app/session/overlay.hpp"
 #include "app/support/log.hpp"
 #include "app/tools/calibration/board.hpp"
 

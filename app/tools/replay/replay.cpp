@@ -6,7 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "app/session/overlay.hpp"
+#include "app/session/session.hpp"
 #include "app/tools/replay/sheet.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/composite.hpp"
@@ -33,14 +33,14 @@ cv::Mat bgr_of(const Frame& frame) {
   return bgr;
 }
 
-/// Keeps the figures of the frames that have a truth; writes nothing.
-class MeasuringOutput : public FrameOutput {
+/// The frames of a recording whose truth is known, and how ours differ from it.
+class TruthFrames {
  public:
-  explicit MeasuringOutput(std::string folder) : folder_(std::move(folder)) {}
+  explicit TruthFrames(std::string folder) : folder_(std::move(folder)) {}
 
-  bool wants_frame(std::int64_t number) const override { return fs::exists(path("truth", number)); }
+  bool has(std::int64_t number) const { return fs::exists(path("truth", number)); }
 
-  void write(const Frame& plate, const Composite& composite) override {
+  void compare(const Frame& plate, const Composite& composite) {
     const cv::Mat ours = bgr_of(composite.rect.empty() ? plate : plate.with_composite(composite)), plate_bgr = bgr_of(plate);
     const cv::Mat truth = read(path("truth", plate.number()), cv::IMREAD_COLOR, ours.size());
     const fs::path clean_path = path("plate_clean", plate.number());
@@ -118,31 +118,35 @@ std::vector<std::string> find_recordings(const std::string& location) {
 
 ReplayResult replay_recording(const std::string& location, const RecordingOverrides& overrides, const std::string& sheet_path,
                               Log& log) {
-  const Recording recording = open_recording(location, overrides);
-  SceneSettings scene = recording.scene;
-  if (!scene.is_by_hand("glare.enabled")) scene.glare.enabled = false;
-  scene.lens.noise = Switch::off;
-  const std::unique_ptr<MediaSource> source = open_footage(recording, log.warning_handler());
-  const CameraModel camera = camera_for_footage(recording, source->info().width_px, source->info().height_px);
-
-  Report report, tracking;
-  const OverlayResult solved = solve_track(*open_footage(recording), camera, scene, FrameRange{}, log, tracking);
-  const std::unique_ptr<FrameTrack> track = make_recorded_track(solved.rows, camera, scene);
-  Stage stage = build_stage(scene, log, report);
-  MeasuringOutput output(recording.folder);
-  const OverlayResult overlaid = run_overlay(*source, *track, stage, scene, camera, output, FrameRange{}, log, report);
-  if (overlaid.damage) throw Error(*overlaid.damage);
+  Recording recording = open_recording(location, overrides);
+  if (!recording.scene.is_by_hand("glare.enabled")) recording.scene.glare.enabled = false;
+  recording.scene.lens.noise = Switch::off;
+  Session session(std::move(recording), {.keeps_track = true}, log);
+  TruthFrames truth(session.recording().folder);
+  session.prepare();
+  while (std::optional<FrameJob> job = session.decode()) {
+    session.track(*job);
+    if (!truth.has(job->image.number())) {
+      session.skip(*job);
+      continue;
+    }
+    session.render(*job);
+    truth.compare(job->image, job->result);
+  }
+  if (session.damage()) throw Error(*session.damage());
+  warn_of_lost_frames(session.report(), log);
 
   ReplayResult result;
-  result.name = recording.name;
-  if (recording.poses_csv) {
-    result.pose = compare_poses(overlaid.rows, tracking::read_track_file(*recording.poses_csv), camera, scene.tag.size_m);
+  result.name = session.recording().name;
+  if (const auto& poses = session.recording().poses_csv) {
+    result.pose =
+        compare_poses(session.track_rows(), tracking::read_track_file(*poses), session.camera(), session.settings().tag.size_m);
     add_figures(*result.pose, result.figures);
   }
-  if (!output.comparisons.empty()) {
-    result.pictures = mean_of(output.comparisons);
-    add_figures(*result.pictures, scene.glare.enabled, result.figures);
-    write_sheet(sheet_path, output.sheet_rows);
+  if (!truth.comparisons.empty()) {
+    result.pictures = mean_of(truth.comparisons);
+    add_figures(*result.pictures, session.settings().glare.enabled, result.figures);
+    write_sheet(sheet_path, truth.sheet_rows);
   }
   if (result.figures.empty()) throw Error(location + ": nothing to compare with; expected poses.csv or truth/ with mask/");
   return result;

@@ -1,4 +1,4 @@
-#include "app/session/scene_build.hpp"
+#include "app/session/scene_builder.hpp"
 #include "app/settings/parameters.hpp"
 #include "render/math/sh.hpp"
 #include "tests/support/parameter_values.hpp"
@@ -58,8 +58,9 @@ class SceneBuild : public ::testing::Test {
         set_parameter_from_text(scene_, parameter.key, tests::other_value(parameter));
   }
 
+  /// By a builder that has made nothing before.
   BuiltScene build() {
-    return build_render_scene(scene_, ignore, [](double) {});
+    return SceneBuilder().build(scene_, ignore, [](double) {});
   }
 
   TemporaryFolder folder_;
@@ -117,7 +118,8 @@ TEST_F(SceneBuild, LightFixedToTheCameraAgreesWithTheTagsInACommonPose) {
   RigidTransform camera_from_tag;
   camera_from_tag.rotation = glm::transpose(glm::dmat3(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, -1), glm::dvec3(0, 1, 0)));
   const glm::dvec3 a = tag_irradiance_over_pi(still, camera_from_tag), b = tag_irradiance_over_pi(carried, camera_from_tag);
-  const render::ShRgb turned = render::rotate_sh(carried.scene.light, tag_from_light(carried, camera_from_tag));
+  const render::ShRgb turned =
+      render::rotate_sh(carried.scene.light, carried.orientation.tag_from_light(camera_from_tag.rotation));
   for (int c = 0; c < 3; ++c) {
     EXPECT_NEAR(a[c], b[c], 1e-9);
     for (std::size_t i = 0; i < turned.size(); ++i)
@@ -128,11 +130,11 @@ TEST_F(SceneBuild, LightFixedToTheCameraAgreesWithTheTagsInACommonPose) {
 TEST_F(SceneBuild, TagFromLightIsTheIdentityUnlessTheLightFollowsTheCamera) {
   RigidTransform camera_from_tag;
   camera_from_tag.rotation = glm::dmat3(glm::rotate(glm::dmat4(1.0), 1.0, glm::dvec3(0, 0, 1)));
-  EXPECT_EQ(tag_from_light(build(), camera_from_tag), glm::dmat3(1.0));
+  EXPECT_EQ(build().orientation.tag_from_light(camera_from_tag.rotation), glm::dmat3(1.0));
 }
 
 TEST_F(SceneBuild, EdgesAreShortAgainstTheObject) {
-  const render::Mesh mesh = build_mesh(scene_, ignore);
+  const render::Mesh mesh = load_objects(scene_, ignore);
   const double diagonal_m = std::hypot(0.02, 0.02);
   ASSERT_GT(mesh.vertices.size(), 100u);
   for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
@@ -146,7 +148,7 @@ TEST_F(SceneBuild, ObjectsArePlacedAndJoined) {
   scene_.objects.push_back(scene_.objects[0]);
   scene_.objects[1].translation_m = {0.1, 0, 0};
   double right_m = -1, left_m = 1;
-  for (const render::Vertex& vertex : build_mesh(scene_, ignore).vertices) {
+  for (const render::Vertex& vertex : load_objects(scene_, ignore).vertices) {
     right_m = std::max<double>(right_m, vertex.position_m.x);
     left_m = std::min<double>(left_m, vertex.position_m.x);
   }
@@ -169,8 +171,9 @@ TEST_F(SceneBuild, WhatCostsLessThanLightLeavesTheSceneAsItIs) {
   const BuiltScene after = build();
   EXPECT_EQ(after.transfer_key, before.transfer_key);
   EXPECT_EQ(after.probe.image.data, before.probe.image.data);
-  EXPECT_EQ(after.light_from_probe, before.light_from_probe);
-  EXPECT_EQ(after.light_follows_camera, before.light_follows_camera);
+  EXPECT_EQ(after.orientation.light_from_probe, before.orientation.light_from_probe);
+  EXPECT_EQ(after.orientation.fixed_from_light, before.orientation.fixed_from_light);
+  EXPECT_EQ(after.orientation.follows_camera, before.orientation.follows_camera);
   EXPECT_EQ(after.scene.light, before.scene.light);
   EXPECT_EQ(after.scene.lights.size(), before.scene.lights.size());
   EXPECT_EQ(after.scene.probe_in_tag_m, before.scene.probe_in_tag_m);
@@ -180,7 +183,7 @@ TEST_F(SceneBuild, WhatCostsLightLeavesTheMeshAsItIs) {
   const BuiltScene before = build();
   change_all({ChangeCost::light});
   const BuiltScene after = build();
-  EXPECT_NE(after.probe.image.data, before.probe.image.data);
+  EXPECT_NE(after.scene.light, before.scene.light);
   EXPECT_EQ(after.scene.mesh.indices, before.scene.mesh.indices);
   EXPECT_EQ(after.scene.probe_in_tag_m, before.scene.probe_in_tag_m);
 }

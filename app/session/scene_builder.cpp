@@ -1,0 +1,238 @@
+#include "app/session/scene_builder.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <filesystem>
+#include <glm/gtc/constants.hpp>
+
+#include "catchlight/util/enum_names.hpp"
+#include "catchlight/util/text.hpp"
+#include "render/math/sh.hpp"
+#include "render/probe/prefilter.hpp"
+#include "render/probe/probe_split.hpp"
+
+namespace catchlight::app {
+namespace {
+
+/// What the object's transfer may take of memory.
+constexpr std::size_t kTransferBytes = std::size_t{512} << 20;
+
+/// Rays of all vertices together, so that a million triangles bake in minutes; a vertex has kMinRays at least.
+constexpr std::size_t kMaxRays = std::size_t{1} << 26;
+constexpr int kMinRays = 64;
+
+/// The error of low-discrepancy rays falls about as one over their number.
+constexpr double kRayErrorFactor = 4;
+
+std::string origin_of(const SceneSettings& settings, const std::string& key) {
+  return settings.is_by_hand(key) ? "set by hand" : "default";
+}
+
+/// A power of two, as low-discrepancy points want it.
+int rays_for_tolerance(double tolerance) {
+  const auto wanted = static_cast<unsigned>(std::clamp(std::ceil(kRayErrorFactor / tolerance), 64.0, 16384.0));
+  return static_cast<int>(std::bit_ceil(wanted));
+}
+
+int choose_rays(const SceneSettings& settings, std::size_t vertices, std::vector<PlanEntry>& plan) {
+  if (settings.is_by_hand("quality.rays")) {
+    plan.push_back({"rays", std::to_string(settings.quality.rays), "set by hand"});
+    return settings.quality.rays;
+  }
+  int rays = rays_for_tolerance(settings.quality.tolerance);
+  std::string reason = "for a tolerance of " + number_text(settings.quality.tolerance);
+  while (rays > kMinRays && vertices * static_cast<std::size_t>(rays) > kMaxRays) {
+    rays /= 2;
+    reason = std::to_string(vertices) + " vertices";
+  }
+  plan.push_back({"rays", std::to_string(rays), reason});
+  return rays;
+}
+
+/// As many as asked for, or fewer for a mesh whose transfer would not fit the memory set apart for it.
+int choose_bands(const SceneSettings& settings, std::size_t vertices, std::vector<PlanEntry>& plan) {
+  int bands = settings.quality.bands;
+  std::string reason = origin_of(settings, "quality.bands");
+  if (!settings.is_by_hand("quality.bands")) {
+    while (bands > 3 && vertices * static_cast<std::size_t>(bands * bands) * sizeof(glm::vec3) > kTransferBytes) --bands;
+    if (bands < settings.quality.bands) reason = std::to_string(vertices) + " vertices";
+  }
+  plan.push_back({"bands", std::to_string(bands), reason});
+  return bands;
+}
+
+std::string text_of(const glm::dvec3& v) {
+  return number_text(v.x) + ' ' + number_text(v.y) + ' ' + number_text(v.z) + ' ';
+}
+
+/// The file as it is now: another name, size or date is another file.
+std::string file_key(const std::string& path) {
+  std::error_code missing;
+  const auto changed = std::filesystem::last_write_time(path, missing).time_since_epoch().count();
+  return path + '|' + std::to_string(std::filesystem::file_size(path, missing)) + '|' + std::to_string(changed) + '\n';
+}
+
+std::string probe_key(const SceneSettings& settings) {
+  const SceneSettings::Probe& probe = settings.probe;
+  return file_key(settings.resolve(probe.image)) + (probe.layout ? name_of(*probe.layout) : "auto") +
+         (probe.strict ? " strict" : "");
+}
+
+std::string mesh_key(const SceneSettings& settings) {
+  std::string key;
+  for (const SceneSettings::Object& object : settings.objects) {
+    key += file_key(settings.resolve(object.mesh));
+    const glm::dmat4 place = object.tag_from_object();
+    for (int column = 0; column < 4; ++column) key += text_of(place[column]);
+  }
+  return key;
+}
+
+std::string frame_key(const glm::dmat3& rotation) {
+  return text_of(rotation[0]) + text_of(rotation[1]) + text_of(rotation[2]);
+}
+
+/// By exact summation over the probe's texels, on the plane with normal tag +z.
+glm::dvec3 irradiance_over_pi(const BuiltScene& built, const glm::dmat3& tag_from_light) {
+  const glm::dmat3 probe_from_tag = glm::transpose(tag_from_light * built.orientation.light_from_probe);
+  return render::irradiance(built.probe, probe_from_tag * glm::dvec3(0, 0, 1)) / glm::pi<double>();
+}
+
+/// As the probe saw it. One that turns with the camera shows another surface than the tag's in most frames.
+render::ReceiverAlbedo choose_receiver_albedo(const BuiltScene& built, const glm::dvec3& given, std::vector<PlanEntry>& plan) {
+  if (built.orientation.follows_camera) {
+    plan.push_back({"receiver albedo", "constant", "the probe shows another surface"});
+    return render::constant_albedo(given);
+  }
+  const glm::dmat3 tag_from_probe = built.orientation.fixed_from_light * built.orientation.light_from_probe;
+  if (const auto seen = render::albedo_from_probe(built.probe, tag_from_probe, built.scene.probe_in_tag_m)) {
+    plan.push_back({"receiver albedo", "seen", "the probe shows the receiver"});
+    return *seen;
+  }
+  plan.push_back({"receiver albedo", "none", "more light comes from below than the receiver can send back: it counts as sky"});
+  return {};
+}
+
+render::ReflectionMap scaled(render::ReflectionMap map, float gain) {
+  for (Image& level : map.levels)
+    for (float& value : level.data) value *= gain;
+  return map;
+}
+
+}  // namespace
+
+/// Makes the part where `key` is not what it was made from, and keeps what `make` adds to the plan.
+void SceneBuilder::renew(ScenePart name, const std::string& key, const Make& make) {
+  Part& part = parts_[static_cast<std::size_t>(name)];
+  if (part.key != key) {
+    part.key.reset();
+    part.plan.clear();
+    make(part.plan);
+    part.key = key;
+    ++part.times_made;
+  }
+  built_.plan.insert(built_.plan.end(), part.plan.begin(), part.plan.end());
+}
+
+void SceneBuilder::load_parts(const SceneSettings& settings, const WarningHandler& warn) {
+  built_.plan.clear();
+  renew(ScenePart::probe, probe_key(settings), [&](auto&) { built_.probe = load_scene_probe(settings, warn); });
+  renew(ScenePart::mesh, mesh_key(settings), [&](auto&) {
+    built_.scene.mesh = load_objects(settings, warn);
+    built_.scene.probe_in_tag_m = glm::vec3(probe_in_tag_m(built_.scene.mesh));
+  });
+  built_.light_gain = std::exp2(settings.probe.ev);
+  built_.orientation = light_orientation(settings.probe);
+  built_.still_irradiance_over_pi = built_.orientation.follows_camera
+                                        ? glm::dvec3(0.0)
+                                        : built_.light_gain * irradiance_over_pi(built_, built_.orientation.fixed_from_light);
+}
+
+void SceneBuilder::bake(const SceneSettings& settings, const WarningHandler& warn, const ProgressHandler& progress) {
+  const render::Mesh& mesh = built_.scene.mesh;
+  render::TransferOptions options;
+  options.bands = choose_bands(settings, mesh.vertices.size(), built_.plan);
+  options.rays = built_.rays = choose_rays(settings, mesh.vertices.size(), built_.plan);
+  options.bounces = settings.quality.bounces;
+  const bool has_receiver = settings.receiver.plane == ReceiverPlane::tag;
+  const render::ReceiverGrid grid =
+      has_receiver ? render::receiver_grid_for(mesh, settings.quality.receiver_points) : render::ReceiverGrid{};
+  if (has_receiver) {
+    const std::string key =
+        probe_key(settings) + mesh_key(settings) + (built_.orientation.follows_camera ? " camera " : " tag ") +
+        frame_key(built_.orientation.fixed_from_light * built_.orientation.light_from_probe) + text_of(settings.receiver.albedo);
+    renew(ScenePart::receiver_albedo, key,
+          [&](auto& plan) { receiver_albedo_ = choose_receiver_albedo(built_, settings.receiver.albedo, plan); });
+    options.receiver_albedo = receiver_albedo_;
+  }
+  built_.transfer_key = render::transfer_key(mesh, grid, options);
+  renew(ScenePart::transfer, built_.transfer_key, [&](auto&) {
+    built_.scene.transfer = render::load_or_bake_transfer(mesh, grid, options, render::default_cache_folder(), progress, warn,
+                                                          &built_.transfer_was_cached);
+  });
+  built_.plan.push_back({"bounces", std::to_string(options.bounces), origin_of(settings, "quality.bounces")});
+  built_.plan.push_back({"shadow",
+                         has_receiver ? std::to_string(grid.columns) + "x" + std::to_string(grid.rows) + " points" : "none",
+                         has_receiver ? "the object's reach on the tag's plane" : "receiver.plane is \"none\""});
+}
+
+void SceneBuilder::light(const SceneSettings& settings) {
+  const glm::dmat3& light_from_probe = built_.orientation.light_from_probe;
+  const std::string key = probe_key(settings) + frame_key(light_from_probe);
+  renew(ScenePart::reflections, key,
+        [&](auto&) { reflections_ = render::prefilter_reflections(built_.probe, light_from_probe); });
+  const int bands = built_.scene.transfer.bands;
+  const std::string split_key = key + number_text(bands) + ' ' + number_text(settings.quality.tolerance) + ' ' +
+                                number_text(settings.quality.light_samples) + origin_of(settings, "quality.light_samples");
+  renew(ScenePart::lights, split_key, [&](std::vector<PlanEntry>& plan) {
+    harmonics_ = render::rotate_sh(render::project_to_sh(built_.probe, bands), light_from_probe);
+    const render::SplitProbe split =
+        render::split_lights(built_.probe, {bands, settings.quality.tolerance, settings.quality.light_samples});
+    samples_ = render::samples_of(split, light_from_probe);
+    rest_reflections_ = {};
+    if (!samples_.empty()) rest_reflections_ = render::prefilter_reflections(split.mirrored, light_from_probe);
+    const std::string why = split.lights.empty() ? "nothing in the probe throws a shadow that its bands cannot hold"
+                                                 : "far brighter than the rest, and sharper than its bands";
+    plan.push_back({"lights", std::to_string(split.lights.size()), settings.quality.light_samples > 0 ? why : "set by hand"});
+    plan.push_back({"light samples", std::to_string(samples_.size()), origin_of(settings, "quality.light_samples")});
+  });
+}
+
+/// Light is linear: a brighter probe is the same light times a number.
+void SceneBuilder::scale_light() {
+  render::RenderScene& scene = built_.scene;
+  scene.light = harmonics_;
+  for (glm::vec3& coefficient : scene.light) coefficient *= static_cast<float>(built_.light_gain);
+  scene.lights = samples_;
+  for (render::LightSample& sample : scene.lights) sample.irradiance *= built_.light_gain;
+  scene.reflections = scaled(reflections_, static_cast<float>(built_.light_gain));
+  scene.rest_reflections = scaled(rest_reflections_, static_cast<float>(built_.light_gain));
+}
+
+const BuiltScene& SceneBuilder::load(const SceneSettings& settings, const WarningHandler& warn) {
+  load_parts(settings, warn);
+  return built_;
+}
+
+const BuiltScene& SceneBuilder::build(const SceneSettings& settings, const WarningHandler& warn,
+                                      const ProgressHandler& progress) {
+  load_parts(settings, warn);
+  bake(settings, warn, progress);
+  light(settings);
+  std::string drawn = number_text(built_.light_gain);
+  for (const ScenePart part : {ScenePart::mesh, ScenePart::transfer, ScenePart::reflections, ScenePart::lights})
+    drawn += ' ' + std::to_string(times_made(part));
+  if (drawn == drawn_) return built_;
+  scale_light();
+  drawn_ = drawn;
+  ++built_.version;
+  return built_;
+}
+
+glm::dvec3 tag_irradiance_over_pi(const BuiltScene& built, const RigidTransform& camera_from_tag) {
+  if (!built.orientation.follows_camera) return built.still_irradiance_over_pi;
+  return built.light_gain * irradiance_over_pi(built, built.orientation.tag_from_light(camera_from_tag.rotation));
+}
+
+}  // namespace catchlight::app

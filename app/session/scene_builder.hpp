@@ -1,0 +1,87 @@
+// From a scene's settings to what the compositor draws, part by part: a part is made anew only where what it depends on changes.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/session/plan.hpp"
+#include "app/session/scene_files.hpp"
+#include "app/settings/scene_settings.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/progress.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "render/render_scene.hpp"
+
+namespace catchlight::app {
+
+/// The parts of a scene that take time to make. Each depends on those before it that its comment names.
+enum class ScenePart {
+  probe,            ///< the probe's file
+  mesh,             ///< the objects' files and places
+  receiver_albedo,  ///< probe, how it lies, mesh
+  transfer,         ///< mesh, receiver's albedo, quality: the bake
+  reflections,      ///< probe, light frame: the prefilter
+  lights,           ///< probe, light frame, bands, quality: the split and the harmonics
+};
+inline constexpr std::size_t kSceneParts = 6;
+
+struct BuiltScene {
+  render::RenderScene scene;  ///< light and reflections in the light frame, scaled by probe.ev
+  render::Probe probe;        ///< the whole light as its file has it
+  double light_gain = 1;      ///< 2^probe.ev
+  LightOrientation orientation;
+  glm::dvec3 still_irradiance_over_pi{0.0};  ///< on the tag, where the light does not follow the camera
+  int rays = 0;                              ///< per vertex in the bake
+  std::string transfer_key;                  ///< names the bake in the cache
+  bool transfer_was_cached = false;
+  std::vector<PlanEntry> plan;
+  int version = 0;  ///< rises whenever `scene` changes
+};
+
+class SceneBuilder {
+ public:
+  /// Loads probe and mesh: all that the exposure and a path tracer need. Quick. Throws Error naming the file at fault.
+  const BuiltScene& load(const SceneSettings& settings, const WarningHandler& warn);
+
+  /// load(), and bakes the transfer or takes it from the cache, prefilters and splits the probe. Where it throws, parts that are
+  /// not done yet are made by the next call.
+  const BuiltScene& build(const SceneSettings& settings, const WarningHandler& warn, const ProgressHandler& progress);
+
+  const BuiltScene& scene() const { return built_; }
+
+  /// How often a part was made so far.
+  int times_made(ScenePart part) const { return parts_[static_cast<std::size_t>(part)].times_made; }
+
+ private:
+  struct Part {
+    std::optional<std::string> key;  ///< what it was made from
+    std::vector<PlanEntry> plan;     ///< what was chosen in making it
+    int times_made = 0;
+  };
+  using Make = std::function<void(std::vector<PlanEntry>& plan)>;
+  void renew(ScenePart part, const std::string& key, const Make& make);
+
+  void load_parts(const SceneSettings& settings, const WarningHandler& warn);
+  void bake(const SceneSettings& settings, const WarningHandler& warn, const ProgressHandler& progress);
+  void light(const SceneSettings& settings);
+  void scale_light();
+
+  BuiltScene built_;
+  std::array<Part, kSceneParts> parts_;
+  render::ReceiverAlbedo receiver_albedo_;
+  // As the probe's file has the light: probe.ev not applied.
+  render::ShRgb harmonics_;
+  std::vector<render::LightSample> samples_;
+  render::ReflectionMap reflections_, rest_reflections_;
+  std::string drawn_;  ///< how often each part that is drawn had been made, and the gain, when `scene` last changed
+};
+
+/// Irradiance / pi on the printed tag, unshadowed, probe.ev applied: what white paper of albedo 1 would send back. The reference
+/// for exposure matching.
+glm::dvec3 tag_irradiance_over_pi(const BuiltScene& built, const RigidTransform& camera_from_tag);
+
+}  // namespace catchlight::app

@@ -1,0 +1,57 @@
+#include "app/session/scene_files.hpp"
+
+#include <algorithm>
+
+#include "render/mesh/bounds.hpp"
+#include "render/mesh/mesh_file.hpp"
+
+namespace catchlight::app {
+namespace {
+
+/// Light is kept at vertices and interpolated between them, so edges stay short against the object; the cap keeps bakes in
+/// seconds.
+constexpr double kEdgesAcrossDiagonal = 24;
+constexpr std::size_t kMaxVertices = 200'000;
+
+/// The camera's up is -y, and it looks along probe -z.
+const glm::dmat3 kCameraFromUpright(glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0, 0, -1));
+
+}  // namespace
+
+render::Mesh load_objects(const SceneSettings& settings, const WarningHandler& warn) {
+  if (settings.objects.empty())
+    throw Error("the scene has no object: give an [[object]] in the scene file, or --object.mesh FILE");
+  render::Mesh mesh;
+  for (const SceneSettings::Object& object : settings.objects)
+    render::append(mesh, render::transformed(render::load_mesh(settings.resolve(object.mesh), warn), object.tag_from_object()));
+  const double diagonal_m = render::bounds_of(mesh).diagonal_m();
+  render::subdivide_long_edges(mesh, diagonal_m / kEdgesAcrossDiagonal, std::max(kMaxVertices, mesh.vertices.size()));
+  return mesh;
+}
+
+render::Probe load_scene_probe(const SceneSettings& settings, const WarningHandler& warn) {
+  if (settings.probe.image.empty())
+    throw Error("the scene has no light: give [probe] image = \"FILE\" in the scene file, or --probe.image FILE");
+  render::ProbeLoadOptions options;
+  options.layout = settings.probe.layout;
+  options.strict = settings.probe.strict;
+  return render::load_probe(settings.resolve(settings.probe.image), options, warn);
+}
+
+LightOrientation light_orientation(const SceneSettings::Probe& probe) {
+  LightOrientation orientation;
+  orientation.follows_camera = probe.fixed_to == LightFrame::camera;
+  const render::UpAxis up = orientation.follows_camera ? render::UpAxis::y : probe.up;
+  const glm::dmat3 fixed_from_upright = orientation.follows_camera ? kCameraFromUpright : glm::dmat3(1.0);
+  orientation.light_from_probe = fixed_from_upright * render::tag_from_probe(up, 0);
+  if (probe.yaw_deg != 0)
+    orientation.fixed_from_light =
+        fixed_from_upright * render::tag_from_probe(up, probe.yaw_deg) * glm::transpose(orientation.light_from_probe);
+  return orientation;
+}
+
+glm::dvec3 probe_in_tag_m(const render::Mesh& mesh) {
+  return {0, 0, std::max(render::bounds_of(mesh).max_m.z, 0.0f) / 2};
+}
+
+}  // namespace catchlight::app

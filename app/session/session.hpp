@@ -1,0 +1,109 @@
+// An opened shot that can be stepped: footage, track, scene and renderer. Every command that handles frames is written on it.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/media/frame_range.hpp"
+#include "app/media/read/source.hpp"
+#include "app/session/frame_job.hpp"
+#include "app/session/frame_track.hpp"
+#include "app/session/recording.hpp"
+#include "app/session/report.hpp"
+#include "app/session/shot_renderer.hpp"
+#include "app/support/log.hpp"
+#include "app/support/progress.hpp"
+#include "catchlight/camera.hpp"
+
+namespace catchlight::app {
+
+struct SessionOptions {
+  std::string task = "overlay";  ///< what the progress bar calls the work
+  FrameRange range = {};
+  std::string track_file = {};  ///< poses from there instead of from the pictures
+  bool is_causal = false;       ///< track recorded footage as live footage is: each frame knows only those before it
+  bool wants_layers = false;    ///< draw layers for compositing packages
+  bool keeps_track = false;     ///< track_rows() is wanted: they grow with the footage
+};
+
+/// while (auto job = session.decode()) session.track(*job), session.render(*job), ...
+///
+/// Recorded footage is tracked as a whole, from its first frame to a second after the range, before the first frame is handed
+/// out, so that poses hardly depend on the range; live footage frame by frame. Frames before the range are handed out too
+/// (is_before_range), to be tracked and skipped. Throws Error as the footage, the camera, the track file and the scene do.
+class Session {
+ public:
+  Session(Recording recording, SessionOptions options, Log& log);
+
+  /// Does at once what else happens when it is first needed: reads the scene's files, tracks recorded footage, and bakes.
+  void prepare();
+
+  /// The next frame; none at the end of the range or of the footage, or where the footage is damaged.
+  std::optional<FrameJob> decode();
+  void track(FrameJob& job);
+  void view(FrameJob& job) { renderer_.view(job); }
+  void render(FrameJob& job);
+
+  /// A frame that is not to be drawn still has its part in the exposure that adapts.
+  void skip(FrameJob& job) { renderer_.skip(job); }
+
+  /// The track of the whole range without drawing anything. Takes the footage to its end.
+  std::vector<TrackRow> track_range();
+
+  /// New settings for the frames to come, with no more redone than they ask for. Where the footage itself has to be read anew
+  /// (another response), or tracked anew, decode() starts at the first frame again.
+  void apply(const SceneSettings& settings);
+
+  const Recording& recording() const { return recording_; }
+  const SceneSettings& settings() const { return recording_.scene; }
+  const CameraModel& camera() const { return camera_; }
+  const MediaSource& footage() const { return *footage_; }
+  const BuiltScene& load_scene() { return renderer_.load(); }
+  const ShotRenderer& renderer() const { return renderer_; }
+
+  /// What is known of damage that ended the footage early.
+  const std::optional<std::string>& damage() const { return damage_; }
+
+  /// The rows of the range so far, where options.keeps_track.
+  const std::vector<TrackRow>& track_rows() const { return rows_; }
+
+  /// What was chosen and why; complete after the last frame.
+  std::vector<PlanEntry> plan() const;
+
+  /// What was done so far.
+  Report report() const;
+
+  /// Runs `work`, e.g. encoding, as a stage of the report.
+  template <class Work>
+  decltype(auto) measure(const std::string& stage, Work&& work) {
+    return report_.stages.measure(stage, std::forward<Work>(work));
+  }
+
+ private:
+  std::unique_ptr<FrameTrack> open_track();
+
+  Recording recording_;
+  SessionOptions options_;
+  Log& log_;
+  std::unique_ptr<MediaSource> footage_;
+  CameraModel camera_;
+  std::unique_ptr<FrameTrack> track_;  ///< null until the first frame is tracked
+  ShotRenderer renderer_;
+  std::optional<Progress> progress_;
+  std::int64_t decoded_ = 0, in_range_ = 0;
+  std::optional<std::string> damage_;
+  std::vector<TrackRow> rows_;
+  ThinnedSample<TrackRow> typical_rows_;  ///< for the plan
+  std::optional<Frame> last_image_;       ///< of the range, for the plan too
+  TrackRow last_row_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Report report_;
+};
+
+/// How many frames of a finished job passed through untouched, and what to check where all did; nothing where none did.
+void warn_of_lost_frames(const Report& report, Log& log);
+
+}  // namespace catchlight::app

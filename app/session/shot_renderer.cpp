@@ -1,0 +1,101 @@
+#include "app/session/shot_renderer.hpp"
+
+#include "app/media/pixels/full_color.hpp"
+#include "app/session/frame_view.hpp"
+#include "app/settings/look.hpp"
+#include "app/settings/parameters.hpp"
+#include "app/support/progress.hpp"
+
+namespace catchlight::app {
+namespace {
+
+PlateReader reader(const Frame& frame) {
+  return [&frame](const PixelRect& rect) { return frame.rgb(rect); };
+}
+
+}  // namespace
+
+render::CompositorSettings compositor_settings(const SceneSettings& scene) {
+  render::CompositorSettings settings;
+  settings.glare = scene.glare;
+  settings.glare.aperture = word_or_path(scene, "glare.aperture");
+  settings.look = scene.look;
+  settings.tone = tone_settings(scene);
+  settings.samples = scene.quality.samples;
+  settings.reflection_rays = scene.quality.reflection_rays;
+  settings.shader_folder = scene.shader_folder;
+  return settings;
+}
+
+ShotRenderer::ShotRenderer(SceneSettings settings, const CameraModel& camera, bool wants_layers, Log& log)
+    : settings_(std::move(settings)),
+      camera_(camera),
+      wants_layers_(wants_layers),
+      log_(log),
+      adaptation_(settings_.exposure.adapt_bright_s, settings_.exposure.adapt_dark_s) {}
+
+ShotRenderer::~ShotRenderer() {
+  if (context_) context_->make_current();
+}
+
+void ShotRenderer::apply(const SceneSettings& settings) {
+  const SceneSettings::Exposure &before = settings_.exposure, &after = settings.exposure;
+  if (before.adapt_bright_s != after.adapt_bright_s || before.adapt_dark_s != after.adapt_dark_s)
+    adaptation_ = render::ToneAdaptation(after.adapt_bright_s, after.adapt_dark_s);
+  settings_ = settings;
+  is_loaded_ = is_built_ = false;
+}
+
+const BuiltScene& ShotRenderer::load() {
+  if (!is_loaded_) builder_.load(settings_, log_.warning_handler());
+  is_loaded_ = true;
+  return builder_.scene();
+}
+
+void ShotRenderer::prepare() {
+  if (context_)
+    context_->make_current();
+  else
+    context_ = render::make_headless_context(), gl_renderer_ = render::gl_info().renderer;
+  if (is_built_) return;
+  const BuiltScene& built = builder_.build(settings_, log_.warning_handler(), progress_handler(log_, "bake"));
+  const render::CompositorSettings wanted = compositor_settings(settings_);
+  if (!compositor_ || drawn_version_ != built.version || drawn_settings_ != wanted) {
+    compositor_.reset();
+    compositor_ = std::make_unique<render::Compositor>(built.scene, wanted);
+    drawn_version_ = built.version;
+    drawn_settings_ = wanted;
+  }
+  is_loaded_ = is_built_ = true;
+}
+
+void ShotRenderer::view(FrameJob& job) {
+  job.view = frame_view(job.image, job.track, camera_, settings_, load());
+  if (adapts()) job.view.tone = adaptation_.at(job.image.time_s());
+}
+
+void ShotRenderer::render(FrameJob& job) {
+  pass_times_.clear();
+  job.result = {};
+  if (job.track.found || (recodes_every_frame(settings_) && !wants_layers_)) {
+    prepare();
+    view(job);
+    job.result = compositor_->render(job.view, reader(job.image), wants_layers_);
+    pass_times_ = compositor_->pass_times();
+    if (adapts()) adaptation_.see(job.image.time_s(), job.result.tone_wanted);
+  }
+  if (settings_.lens.chroma_subsampling == Switch::off) job.image = with_full_color(job.image);
+}
+
+void ShotRenderer::skip(FrameJob& job) {
+  if (!adapts()) return;
+  prepare();
+  view(job);
+  adaptation_.see(job.image.time_s(), compositor_->meter(job.view, reader(job.image)));
+}
+
+bool ShotRenderer::adapts() const {
+  return tone_settings(settings_).enabled && !wants_layers_;
+}
+
+}  // namespace catchlight::app

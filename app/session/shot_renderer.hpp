@@ -1,0 +1,79 @@
+// Draws a shot's frames: the scene, the compositor and the exposure that adapts from frame to frame.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/session/frame_job.hpp"
+#include "app/session/scene_builder.hpp"
+#include "app/support/log.hpp"
+#include "catchlight/camera.hpp"
+#include "render/compositor.hpp"
+#include "render/gl/gl_context.hpp"
+#include "render/tone/tone_adaptation.hpp"
+
+namespace catchlight::app {
+
+/// Everything is made when it is first needed, and made anew where settings ask for it. Errors are those of the scene's files,
+/// of a missing GL, and of the compositor.
+class ShotRenderer {
+ public:
+  /// `wants_layers`: frames get layers for compositing packages, which hold the scene's light and have no tone curve.
+  ShotRenderer(SceneSettings settings, const CameraModel& camera, bool wants_layers, Log& log);
+  ~ShotRenderer();
+  ShotRenderer(const ShotRenderer&) = delete;
+  ShotRenderer& operator=(const ShotRenderer&) = delete;
+
+  /// Settings for the frames to come.
+  void apply(const SceneSettings& settings);
+
+  /// The scene's files: what view() needs, and a first word on what is missing. Quick.
+  const BuiltScene& load();
+
+  /// GL, the bake and the compositor: all that takes time before the first frame. Several renderers may live side by side: each
+  /// makes its context current before it draws.
+  void prepare();
+
+  /// Sets job.view from job.image and job.track.
+  void view(FrameJob& job);
+
+  /// Sets job.view and job.result.
+  void render(FrameJob& job);
+
+  /// The exposure adapts to frames that are not drawn, too: it must see every frame of the footage, in order.
+  void skip(FrameJob& job);
+
+  /// The last render()'s; empty where nothing was drawn.
+  const std::vector<render::PassTime>& pass_times() const { return pass_times_; }
+
+  const SceneSettings& settings() const { return settings_; }
+  const std::vector<PlanEntry>& plan() const { return builder_.scene().plan; }
+  const SceneBuilder& builder() const { return builder_; }
+
+  /// GL_RENDERER; empty before prepare().
+  const std::string& gl_renderer() const { return gl_renderer_; }
+
+ private:
+  bool adapts() const;
+
+  SceneSettings settings_;
+  CameraModel camera_;
+  bool wants_layers_;
+  Log& log_;
+  std::unique_ptr<render::GlContext> context_;  ///< outlives the compositor
+  std::string gl_renderer_;
+  SceneBuilder builder_;
+  bool is_loaded_ = false, is_built_ = false;  ///< with these settings
+  int drawn_version_ = 0;
+  std::optional<render::CompositorSettings> drawn_settings_;  ///< the compositor's
+  std::unique_ptr<render::Compositor> compositor_;
+  render::ToneAdaptation adaptation_;
+  std::vector<render::PassTime> pass_times_;
+};
+
+/// The scene's part that the compositor's passes are made by.
+render::CompositorSettings compositor_settings(const SceneSettings& scene);
+
+}  // namespace catchlight::app

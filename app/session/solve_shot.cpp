@@ -1,0 +1,50 @@
+#include "app/session/solve_shot.hpp"
+
+#include <algorithm>
+
+#include "app/session/frame_track.hpp"
+#include "app/support/progress.hpp"
+
+namespace catchlight::app {
+namespace {
+
+/// Far enough past the end that the last poses know what comes after them.
+FrameRange with_a_second_more(FrameRange range, const SourceInfo& info) {
+  const auto second = static_cast<std::int64_t>(std::max(info.frame_rate, 1.0));
+  range.end = std::min(range.end, FrameRange{}.end - second) + second;
+  return range;
+}
+
+}  // namespace
+
+std::optional<std::int64_t> frames_to_read(const SourceInfo& info, const FrameRange& range) {
+  if (range.end != FrameRange{}.end && !info.frame_count) return range.end - info.first_number;
+  if (!info.frame_count) return {};
+  return std::min(*info.frame_count, range.end == FrameRange{}.end ? *info.frame_count : range.end - info.first_number);
+}
+
+SolvedShot solve_shot(MediaSource& source, const CameraModel& camera, const SceneSettings& scene, const FrameRange& range,
+                      Log& log, StageTimer& stages) {
+  SolvedShot shot;
+  ShotTrack track(camera, scene);
+  const FrameRange read_range = with_a_second_more(range, source.info());
+  {
+    Progress progress(log, "track", frames_to_read(source.info(), read_range));
+    std::int64_t read = 0;
+    try {
+      while (const std::optional<Frame> frame = stages.measure("track decode", [&] { return source.read(); })) {
+        if (frame->number() >= read_range.end) break;
+        stages.measure("track", [&] { track.add(*frame); });
+        progress.update(++read);
+      }
+    } catch (const DamagedMedia& damaged) {
+      shot.damage = damaged.what();
+    }
+  }
+  shot.rows = stages.measure("solve", [&] { return track.solve(); });
+  if (const auto warning = track.warning(shot.rows)) log.warn(*warning);
+  std::erase_if(shot.rows, [&](const TrackRow& row) { return row.frame >= range.end; });
+  return shot;
+}
+
+}  // namespace catchlight::app

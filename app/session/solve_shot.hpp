@@ -1,0 +1,31 @@
+// Tracks recorded footage as a whole.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/media/frame_range.hpp"
+#include "app/media/read/source.hpp"
+#include "app/session/report.hpp"
+#include "app/settings/scene_settings.hpp"
+#include "app/support/log.hpp"
+#include "catchlight/camera.hpp"
+#include "catchlight/track.hpp"
+
+namespace catchlight::app {
+
+struct SolvedShot {
+  std::vector<TrackRow> rows;         ///< from the footage's first frame to the range's end
+  std::optional<std::string> damage;  ///< the footage broke off: what is known about it
+};
+
+/// Reads from the source's first frame to a second after the range's end, so that poses hardly depend on the range. The stages
+/// are "track decode", "track" (a frame each) and "solve" (once).
+SolvedShot solve_shot(MediaSource& source, const CameraModel& camera, const SceneSettings& scene, const FrameRange& range,
+                      Log& log, StageTimer& stages);
+
+/// The frames from the source's first to the range's end, where that can be known.
+std::optional<std::int64_t> frames_to_read(const SourceInfo& info, const FrameRange& range);
+
+}  // namespace catchlight::app

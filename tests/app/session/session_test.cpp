@@ -1,0 +1,218 @@
+// Sessions on a shipped recording, drawn coarsely: what is tested is what is done again and what is the same, not how it looks.
+#include "app/session/session.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <memory>
+
+#include "app/settings/parameters.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace catchlight::app {
+namespace {
+
+using ::testing::HasSubstr;
+using tests::message_of;
+using tests::TemporaryFolder;
+
+const std::string kRecording = CATCHLIGHT_SOURCE_DIR "/recordings/matte";
+constexpr int kFrame = 2;
+
+class SessionTest : public ::testing::Test {
+ protected:
+  SessionTest() { log_.set_quiet(true); }
+
+  /// One cache for all: what one test has baked the next need not.
+  static void SetUpTestSuite() {
+    cache_ = std::make_unique<TemporaryFolder>();
+    setenv("XDG_CACHE_HOME", cache_->path().c_str(), 1);
+  }
+  static void TearDownTestSuite() { cache_.reset(); }
+
+  /// matte with an object of few rays and bands.
+  static Recording recording() {
+    RecordingOverrides overrides;
+    overrides.parameters = {{"quality.bands", "3"},         {"quality.rays", "32"},           {"quality.bounces", "0"},
+                            {"quality.light_samples", "8"}, {"quality.reflection_rays", "0"}, {"quality.receiver_points", "12"},
+                            {"quality.samples", "1"}};
+    return open_recording(kRecording, overrides);
+  }
+
+  /// Frame kFrame alone, at its known pose: tracking has tests of its own.
+  static SessionOptions one_frame() {
+    return {.range = {kFrame, kFrame + 1}, .track_file = kRecording + "/poses.csv", .keeps_track = true};
+  }
+
+  static Recording with(std::vector<std::pair<std::string, std::string>> parameters) {
+    Recording changed = recording();
+    for (const auto& [key, text] : parameters) set_parameter_from_text(changed.scene, key, text);
+    return changed;
+  }
+
+  static FrameJob next_in_range(Session& session) {
+    while (std::optional<FrameJob> job = session.decode()) {
+      session.track(*job);
+      if (!job->is_before_range) return std::move(*job);
+      session.skip(*job);
+    }
+    throw Error("the footage ended");
+  }
+
+  static Composite drawn(Session& session) {
+    FrameJob job = next_in_range(session);
+    session.render(job);
+    return job.result;
+  }
+
+  /// As the commands draw it: by a session of its own.
+  Composite drawn_afresh(Recording recording) {
+    Session session(std::move(recording), one_frame(), log_);
+    return drawn(session);
+  }
+
+  static inline std::unique_ptr<TemporaryFolder> cache_;
+  Log log_;
+};
+
+void expect_same(const Composite& a, const Composite& b) {
+  EXPECT_EQ(a.rect, b.rect);
+  EXPECT_EQ(a.rgba, b.rgba);
+  EXPECT_FALSE(a.rect.empty()) << "nothing was drawn";
+}
+
+int times_made(const Session& session, ScenePart part) {
+  return session.renderer().builder().times_made(part);
+}
+
+TEST_F(SessionTest, AFrameIsTheSameHoweverTheSessionCameToIt) {
+  const Composite alone = drawn_afresh(recording());
+  SessionOptions from_the_start = one_frame();
+  from_the_start.range = {};
+  Session session(recording(), from_the_start, log_);
+  session.prepare();
+  Composite last;
+  for (int i = 0; i <= kFrame; ++i) last = drawn(session);
+  expect_same(last, alone);
+}
+
+/// The yaw turns the light, and the receiver's albedo, which the probe shows; what the probe was prefiltered to stays.
+TEST_F(SessionTest, YawCostsNoPrefilter) {
+  Session session(recording(), {.track_file = kRecording + "/poses.csv"}, log_);
+  for (int i = 0; i < kFrame; ++i) drawn(session);
+  session.apply(with({{"probe.yaw_deg", "75"}}).scene);
+  expect_same(drawn(session), drawn_afresh(with({{"probe.yaw_deg", "75"}})));
+  EXPECT_EQ(times_made(session, ScenePart::probe), 1);
+  EXPECT_EQ(times_made(session, ScenePart::mesh), 1);
+  EXPECT_EQ(times_made(session, ScenePart::reflections), 1);
+  EXPECT_EQ(times_made(session, ScenePart::lights), 1);
+}
+
+TEST_F(SessionTest, YawCostsNoBakeWhereTheProbeDoesNotShowTheReceiver) {
+  Recording plain = with({{"receiver.plane", "none"}});
+  Session session(plain, {.track_file = kRecording + "/poses.csv"}, log_);
+  drawn(session);
+  set_parameter_from_text(plain.scene, "probe.yaw_deg", "75");
+  session.apply(plain.scene);
+  drawn(session);
+  EXPECT_EQ(times_made(session, ScenePart::transfer), 1);
+}
+
+TEST_F(SessionTest, ProbeEvCostsNeitherABakeNorAPrefilter) {
+  Session session(recording(), {.track_file = kRecording + "/poses.csv"}, log_);
+  for (int i = 0; i < kFrame; ++i) drawn(session);
+  const Recording brighter = with({{"probe.ev", "-1.3"}, {"exposure.mode", "fixed"}});
+  session.apply(brighter.scene);
+  expect_same(drawn(session), drawn_afresh(brighter));
+  for (const ScenePart part : {ScenePart::probe, ScenePart::mesh, ScenePart::receiver_albedo, ScenePart::transfer,
+                               ScenePart::reflections, ScenePart::lights})
+    EXPECT_EQ(times_made(session, part), 1) << static_cast<int>(part);
+}
+
+TEST_F(SessionTest, AChangedPartIsMadeAgainAndNoOther) {
+  Session session(recording(), {.track_file = kRecording + "/poses.csv"}, log_);
+  for (int i = 0; i < kFrame; ++i) drawn(session);
+  const Recording moved = with({{"object.tag_from_object.translation_m", "0.01,0,0"}});
+  session.apply(moved.scene);
+  expect_same(drawn(session), drawn_afresh(moved));
+  EXPECT_EQ(times_made(session, ScenePart::mesh), 2);
+  EXPECT_EQ(times_made(session, ScenePart::transfer), 2);
+  EXPECT_EQ(times_made(session, ScenePart::probe), 1);
+  EXPECT_EQ(times_made(session, ScenePart::reflections), 1);
+}
+
+TEST_F(SessionTest, SettingsOfTheViewAndOfThePassesMakeNoPartAnew) {
+  Session session(recording(), {.track_file = kRecording + "/poses.csv"}, log_);
+  for (int i = 0; i < kFrame; ++i) drawn(session);
+  const Recording changed = with({{"exposure.ev", "1"}, {"glare.threshold", "0.3"}, {"lens.noise", "false"}});
+  session.apply(changed.scene);
+  expect_same(drawn(session), drawn_afresh(changed));
+  EXPECT_EQ(times_made(session, ScenePart::mesh) + times_made(session, ScenePart::transfer), 2);
+}
+
+TEST_F(SessionTest, AnotherTrackStartsTheFootageAgain) {
+  Session session(recording(), {.track_file = kRecording + "/poses.csv"}, log_);
+  for (int i = 0; i < kFrame; ++i) drawn(session);
+  session.apply(with({{"tag.white_albedo", "0.5"}}).scene);
+  EXPECT_EQ(session.decode().value().image.number(), 0);
+}
+
+/// The reference sees a frame as the overlay does: where its object changes nothing it is the plate, and the view is the same.
+TEST_F(SessionTest, TheReferenceSeesTheFrameThatIsDrawn) {
+  for (const char* mode : {"match", "fixed", "auto"}) {
+    Session drawing(with({{"exposure.mode", mode}}), one_frame(), log_),
+        tracing(with({{"exposure.mode", mode}}), one_frame(), log_);
+    FrameJob overlaid = next_in_range(drawing), traced = next_in_range(tracing);
+    drawing.render(overlaid);
+    tracing.view(traced);
+    EXPECT_EQ(overlaid.view.exposure, traced.view.exposure) << mode;
+    EXPECT_EQ(overlaid.view.black, traced.view.black) << mode;
+    EXPECT_EQ(overlaid.view.camera_from_tag.translation_m, traced.view.camera_from_tag.translation_m) << mode;
+    EXPECT_EQ(overlaid.view.tag_from_light, traced.view.tag_from_light) << mode;
+  }
+}
+
+TEST_F(SessionTest, RowsAreKeptWhereTheyAreWantedAlone) {
+  SessionOptions options = one_frame();
+  options.range = {0, 3};
+  for (const bool wanted : {true, false}) {
+    options.keeps_track = wanted;
+    Session session(recording(), options, log_);
+    while (std::optional<FrameJob> job = session.decode()) session.track(*job);
+    EXPECT_EQ(session.track_rows().size(), wanted ? 3u : 0u);
+    EXPECT_EQ(session.report().frames, 3);
+  }
+}
+
+/// Frames a second count all the time that the frames took: tracking the shot, too. Its decoding is a stage of its own.
+TEST_F(SessionTest, FramesASecondCoverTheTrackingPass) {
+  Session session(recording(), {.range = {0, 3}}, log_);
+  while (std::optional<FrameJob> job = session.decode()) session.track(*job);
+  const Report report = session.report();
+  double tracking_ms = 0;
+  std::vector<std::string> names;
+  for (const StageTimer::Summary& stage : report.stages.summaries()) {
+    names.push_back(stage.stage);
+    if (stage.stage == "track") tracking_ms = stage.median_ms;
+  }
+  EXPECT_THAT(names, ::testing::IsSupersetOf({"track decode", "track", "solve", "decode"}));
+  // Half of the frames took the median or longer.
+  EXPECT_GE(1000 * static_cast<double>(report.frames) / report.fps, tracking_ms * static_cast<double>(report.frames) / 2);
+}
+
+TEST_F(SessionTest, ARangeBesideTheFootageIsRefusedAtOnce) {
+  const auto opened = [&](FrameRange range) { return [this, range] { Session(recording(), {.range = range}, log_); }; };
+  EXPECT_THAT(message_of<Error>(opened({99, 100})), HasSubstr("there is no frame 99; it has 36 from 0"));
+  EXPECT_THAT(message_of<Error>(opened({40, 90})), HasSubstr("it has 36 from 0"));
+}
+
+TEST_F(SessionTest, MissingFilesOfTheSceneAreNoticedBeforeTracking) {
+  Recording broken = recording();
+  broken.scene.objects.front().mesh = cache_->path("none.glb");
+  Session session(broken, {}, log_);
+  EXPECT_THAT(message_of<Error>([&] { session.prepare(); }), HasSubstr("none.glb"));
+  EXPECT_TRUE(session.report().stages.summaries().empty()) << "something was done before";
+}
+
+}  // namespace
+}  // namespace catchlight::app
