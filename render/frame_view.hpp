@@ -8,7 +8,7 @@
 #include "catchlight/plate.hpp"
 #include "catchlight/rigid_transform.hpp"
 #include "catchlight/tone_curve.hpp"
-#include "render/camera/lens_view.hpp"
+#include "render/lens_view.hpp"
 
 namespace catchlight::render {
 

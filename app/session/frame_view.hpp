@@ -8,8 +8,8 @@
 #include "catchlight/camera.hpp"
 #include "catchlight/plate.hpp"
 #include "catchlight/track.hpp"
-#include "render/camera/lens_view.hpp"
 #include "render/frame_view.hpp"
+#include "render/lens_view.hpp"
 
 namespace catchlight::app {
 

@@ -9,8 +9,8 @@
 #include "catchlight/pixel_rect.hpp"
 #include "catchlight/projection.hpp"
 #include "catchlight/rigid_transform.hpp"
-#include "render/camera/lens_view.hpp"
 #include "render/frame_view.hpp"
+#include "render/lens_view.hpp"
 #include "render/mesh/bounds.hpp"
 
 namespace catchlight::render {

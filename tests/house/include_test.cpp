@@ -43,6 +43,14 @@ TEST_F(House, HasNoCircleOfUnits) {
   EXPECT_THAT(include_circles(tree(), unit_of), IsEmpty());
 }
 
+TEST_F(House, HasNoCircleOfFolders) {
+  EXPECT_THAT(include_circles(tree(), folder_of), IsEmpty());
+}
+
+TEST_F(House, HasNoCircleOfLibraries) {
+  EXPECT_THAT(include_circles(tree(), library_of), IsEmpty());
+}
+
 TEST_F(House, HasRoomInFoldersAndFiles) {
   EXPECT_THAT(oversized(tree()), IsEmpty());
 }
