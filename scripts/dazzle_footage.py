@@ -1,6 +1,6 @@
 """dazzle_footage.py RADIANCE RECORDING: what a camera makes of the radiance that dazzle_scene.py rendered.
 
-Writes plate/%04d.png (noise, 8-bit sRGB) into RADIANCE, and into RECORDING truth/, plate_clean/, mask/, probe.exr, camera.yaml. The truth glares: the glare is
+Writes png/%04d.png (the plate with noise, 8-bit sRGB) into RADIANCE, and into RECORDING truth/, plate_clean/, mask/, probe.exr, camera.yaml. The truth glares: the glare is
 convolved here by numpy's FFT with the kernel that docs/glare.md states, from Cycles' own radiance; nothing of the program takes part.
 """
 import os

@@ -3,7 +3,7 @@
 blender -b -noaudio -P scripts/dazzle_scene.py -- TAG.png OUT [FIRST LAST]
 
 Blender's world is the tag's frame: x right, y up as the tag is read, z out of the print, metres. Writes to OUT scene-linear radiance:
-plate/%04d.exr of every frame, truth/%04d.exr and mask/%04d.png of every sixteenth, probe.exr (equirectangular), object.glb, poses.csv.
+plate/%04d.exr of every frame, truth/%04d.exr and mask/%04d.png of every sixteenth, panorama.exr (equirectangular), object.glb, poses.csv.
 """
 import math
 import os
