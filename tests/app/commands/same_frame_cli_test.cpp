@@ -29,8 +29,24 @@ class EveryCommand : public ::testing::Test {
   }
 
   void run(const std::string& command, const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments = {command,        recording_, "--quality.rays",  "16",   "--quality.bands", "3",
-                                          "--lens.noise", "false",    "--glare.enabled", "false"};
+    std::vector<std::string> arguments = {command,
+                                          recording_,
+                                          "--quality.rays",
+                                          "16",
+                                          "--quality.bands",
+                                          "3",
+                                          "--quality.light_samples",
+                                          "8",
+                                          "--quality.bounces",
+                                          "0",
+                                          "--quality.light_samples",
+                                          "8",
+                                          "--quality.bounces",
+                                          "0",
+                                          "--lens.noise",
+                                          "false",
+                                          "--glare.enabled",
+                                          "false"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const CommandResult result = run_catchlight(arguments);
     EXPECT_NE(result.exit_code, 2) << result.error;
