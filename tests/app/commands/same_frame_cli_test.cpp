@@ -29,24 +29,13 @@ class EveryCommand : public ::testing::Test {
   }
 
   void run(const std::string& command, const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments = {command,
-                                          recording_,
-                                          "--quality.rays",
-                                          "16",
-                                          "--quality.bands",
-                                          "3",
-                                          "--quality.light_samples",
-                                          "8",
-                                          "--quality.bounces",
-                                          "0",
-                                          "--quality.light_samples",
-                                          "8",
-                                          "--quality.bounces",
-                                          "0",
-                                          "--lens.noise",
-                                          "false",
-                                          "--glare.enabled",
-                                          "false"};
+    std::vector<std::string> arguments = {command, recording_};
+    for (const char* setting : {"quality.rays 16", "quality.bands 3", "quality.bounces 0", "quality.light_samples 8",
+                                "lens.noise false", "glare.enabled false"}) {
+      const std::string text = setting;
+      arguments.push_back("--" + text.substr(0, text.find(' ')));
+      arguments.push_back(text.substr(text.find(' ') + 1));
+    }
     arguments.insert(arguments.end(), more.begin(), more.end());
     const CommandResult result = run_catchlight(arguments);
     EXPECT_NE(result.exit_code, 2) << result.error;
