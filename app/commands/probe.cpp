@@ -52,7 +52,7 @@ void print(const char* name, const std::string& value) {
   std::printf("%-20s %s\n", name, value.c_str());
 }
 
-/// As ImfEnvmap.h counts them: longitude 0 is +z, +90 degrees is +x.
+/// A direction with its angles as ImfEnvmap.h counts them: longitude 0 is +z, +90 degrees is +x.
 std::string direction_text(const glm::dvec3& d) {
   return shown(d) + " (latitude " + shown(glm::degrees(std::asin(glm::clamp(d.y, -1.0, 1.0)))) + ", longitude " +
          shown(glm::degrees(std::atan2(d.x, d.z))) + " deg)";
@@ -243,6 +243,31 @@ void add_split(CLI::App& command, const std::shared_ptr<ProbeArguments>& argumen
   add_overwrite(parts, *arguments);
 }
 
+void add_ball(CLI::App& command, const std::shared_ptr<ProbeArguments>& arguments, Context& context) {
+  CLI::App& ball =
+      add_probe_command(command, "ball", "Preview: a mirror ball on the tag in this light", arguments, write_ball, context);
+  ball.footer(
+      "The camera stands in front of the tag (at tag -y) and looks at it horizontally: right is tag +x, up is tag +z, and the "
+      "middle of\n"
+      "the ball mirrors the camera. What stood behind the camera in the real place has to be seen in the middle.");
+  ball.add_option("-o,--output", arguments->output, "PNG file")->required();
+  ball.add_option("--size", arguments->size_px, "Width and height in pixels")->check(CLI::Range(8, 8192))->capture_default_str();
+  ball.add_option("--ev", arguments->ev, "Exposure")->check(CLI::Range(-30.0, 30.0))->capture_default_str();
+  ball.add_option("--yaw", arguments->yaw_deg, "As probe.yaw_deg of the scene file")->check(CLI::Range(-360.0, 360.0));
+  add_overwrite(ball, *arguments);
+}
+
+void add_preview(CLI::App& command, const std::shared_ptr<ProbeArguments>& arguments, Context& context) {
+  CLI::App& preview =
+      add_probe_command(command, "preview", "Shows which way round: panorama, balls, plan", arguments, write_preview, context);
+  preview.footer("For a tag flat on a table. docs/probes.md says how to read it.");
+  preview.add_option("-o,--output", arguments->output, "PNG file")->required();
+  preview.add_option("--size", arguments->preview_px, "Width in pixels")->check(CLI::Range(300, 8192))->capture_default_str();
+  preview.add_option("--ev", arguments->ev, "Brighter or darker")->check(CLI::Range(-30.0, 30.0))->capture_default_str();
+  preview.add_option("--yaw", arguments->yaw_deg, "As probe.yaw_deg of the scene file")->check(CLI::Range(-360.0, 360.0));
+  add_overwrite(preview, *arguments);
+}
+
 }  // namespace
 
 void set_up_probe(CLI::App& command, Context& context) {
@@ -267,26 +292,8 @@ void set_up_probe(CLI::App& command, Context& context) {
   sh.add_option("-o,--output", arguments->output, "Text file; stdout where left out");
   add_overwrite(sh, *arguments);
 
-  CLI::App& ball =
-      add_probe_command(command, "ball", "Preview: a mirror ball on the tag in this light", arguments, write_ball, context);
-  ball.footer(
-      "The camera stands in front of the tag (at tag -y) and looks at it horizontally: right is tag +x, up is tag +z, and the "
-      "middle of\n"
-      "the ball mirrors the camera. What stood behind the camera in the real place has to be seen in the middle.");
-  ball.add_option("-o,--output", arguments->output, "PNG file")->required();
-  ball.add_option("--size", arguments->size_px, "Width and height in pixels")->check(CLI::Range(8, 8192))->capture_default_str();
-  ball.add_option("--ev", arguments->ev, "Exposure")->check(CLI::Range(-30.0, 30.0))->capture_default_str();
-  ball.add_option("--yaw", arguments->yaw_deg, "As probe.yaw_deg of the scene file")->check(CLI::Range(-360.0, 360.0));
-  add_overwrite(ball, *arguments);
-
-  CLI::App& preview =
-      add_probe_command(command, "preview", "Shows which way round: panorama, balls, plan", arguments, write_preview, context);
-  preview.footer("For a tag flat on a table. docs/probes.md says how to read it.");
-  preview.add_option("-o,--output", arguments->output, "PNG file")->required();
-  preview.add_option("--size", arguments->preview_px, "Width in pixels")->check(CLI::Range(300, 8192))->capture_default_str();
-  preview.add_option("--ev", arguments->ev, "Brighter or darker")->check(CLI::Range(-30.0, 30.0))->capture_default_str();
-  preview.add_option("--yaw", arguments->yaw_deg, "As probe.yaw_deg of the scene file")->check(CLI::Range(-360.0, 360.0));
-  add_overwrite(preview, *arguments);
+  add_ball(command, arguments, context);
+  add_preview(command, arguments, context);
 }
 
 }  // namespace catchlight::app

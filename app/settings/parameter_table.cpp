@@ -13,7 +13,7 @@ std::vector<std::string> same_or_family() {
   return choices;
 }
 
-std::vector<Parameter> make_table() {
+std::vector<Parameter> tag_parameters() {
   using enum ChangeCost;
   using enum Scale;
   return {
@@ -21,7 +21,6 @@ std::vector<Parameter> make_table() {
        "\"camera\" shows the picture as the footage's camera would. \"classic\" has the exposure, bloom and star of the first "
        "real-time HDR pictures: it sets those keys of `exposure` and `glare` that are left out.",
        ChoiceKind{[](auto& s) { return &s.look; }}},
-
       {"tag.family", "", track, "The printed tag belongs to this family.",
        WordKind{[](auto& s) { return &s.tag.family; }, tracking::tag_families()}},
       {"tag.id", "", track, "The tag has this number within its family.",
@@ -34,7 +33,6 @@ std::vector<Parameter> make_table() {
        RealKind{[](auto& s) { return &s.tag.white_albedo; }, 0.01, 1}},
       {"tag.black_albedo", "", track, "The print's black reflects this share of the light.",
        RealKind{[](auto& s) { return &s.tag.black_albedo; }, 0, 1}},
-
       {"tag.refinement", "", track,
        "After detection, \"direct\" fits the whole pattern (pose, blur and light at once), \"corners\" the four edges, \"none\" "
        "nothing. Each is cheaper and less exact than the one before.",
@@ -51,7 +49,13 @@ std::vector<Parameter> make_table() {
       {"tag.bundle.tag_from_this.rotation_deg", "deg", track,
        "The further tag is turned by these angles in the first tag's frame: about x first, then y, then z.",
        VectorKind{[](auto& s, std::size_t i) { return &s.tag.bundle[i].rotation_deg; }, -360, 360, angle}},
+  };
+}
 
+std::vector<Parameter> object_parameters() {
+  using enum ChangeCost;
+  using enum Scale;
+  return {
       {"object.mesh", "", mesh, "The object is read from this file, in metres: glTF 2.0 (`.glb`, `.gltf`), OBJ or PLY.",
        PathKind{[](auto& s, std::size_t i) { return &s.objects[i].mesh; }}},
       {"object.tag_from_object.translation_m", "m", mesh, "The object's origin is at this place in the tag's frame.",
@@ -65,14 +69,19 @@ std::vector<Parameter> make_table() {
       {"object.shading", "", mesh,
        "The object is lit in this way: \"prt\" is precomputed radiance transfer, with mirror reflections.",
        ChoiceKind{[](auto& s, std::size_t i) { return &s.objects[i].shading; }}},
-
       {"receiver.plane", "", bake, "The object's shadow falls on this real surface: the tag's plane, or none.",
        ChoiceKind{[](auto& s) { return &s.receiver.plane; }}},
       {"receiver.albedo", "", bake,
        "The surface reflects this share of red, green and blue light (linear). It counts where the footage is clipped, and where "
        "no probe fixed to the tag shows the surface.",
        VectorKind{[](auto& s) { return &s.receiver.albedo; }, 0, 1, color}},
+  };
+}
 
+std::vector<Parameter> probe_parameters() {
+  using enum ChangeCost;
+  using enum Scale;
+  return {
       {"probe.image", "", light, "The light probe is read from this file: OpenEXR or Radiance HDR, scene-linear, Rec. 709.",
        PathKind{[](auto& s) { return &s.probe.image; }}},
       {"probe.layout", "", light,
@@ -88,7 +97,13 @@ std::vector<Parameter> make_table() {
        ChoiceKind{[](auto& s) { return &s.probe.fixed_to; }}},
       {"probe.ev", "EV", light, "The probe is brightened by this many stops.",
        RealKind{[](auto& s) { return &s.probe.ev; }, -30, 30}},
+  };
+}
 
+std::vector<Parameter> exposure_parameters() {
+  using enum ChangeCost;
+  using enum Scale;
+  return {
       {"exposure.mode", "", passes,
        "\"match\" exposes the virtual layer as the footage was, by the tag's own white and black. \"fixed\" takes radiance as "
        "exposed. \"auto\" matches, then exposes the whole picture anew as an adapting eye does.",
@@ -106,7 +121,13 @@ std::vector<Parameter> make_table() {
        "The camera's codes stand for light in this way. \"footage\" is what the stream says; else it is a formula, or a curve "
        "from OpenCV (`.yaml`, `.xml`), `.csv` or `.cube` (docs/exposure.md).",
        PathKind{[](auto& s) { return &s.exposure.response; }, {"footage", "srgb", "linear", "gamma:2.4"}}},
+  };
+}
 
+std::vector<Parameter> bloom_and_streak_parameters() {
+  using enum ChangeCost;
+  using enum Scale;
+  return {
       {"glare.enabled", "", passes, "What exceeds the sensor's white spills as bloom and streaks.",
        FlagKind{[](auto& s) { return &s.glare.enabled; }}},
       {"glare.threshold", "", passes,
@@ -134,6 +155,13 @@ std::vector<Parameter> make_table() {
        "A streak is this wide across: the standard deviation, as a share of the frame's height. Below 0.006 it is drawn at twice "
        "the resolution.",
        RealKind{[](auto& s) { return &s.glare.streak_width; }, 0.002, 0.1, logarithmic}},
+  };
+}
+
+std::vector<Parameter> emission_and_aperture_parameters() {
+  using enum ChangeCost;
+  using enum Scale;
+  return {
       {"glare.emitter_strength", "", passes,
        "The glare of what the object's own materials emit is this many times that of reflections as bright.",
        RealKind{[](auto& s) { return &s.glare.emitter_strength; }, 0, 100, logarithmic, 0.01}},
@@ -147,7 +175,6 @@ std::vector<Parameter> make_table() {
       {"glare.grid_rows", "", passes,
        "Glare is computed on a grid of this many rows over the whole frame; its texels are never smaller than a pixel.",
        IntegerKind{[](auto& s) { return &s.glare.grid_rows; }, 60, 2160}},
-
       {"glare.method", "", passes,
        "\"fast\" draws bloom and streaks. \"fft\" computes at full resolution what `glare.aperture` diffracts, which takes "
        "seconds a frame.",
@@ -161,7 +188,12 @@ std::vector<Parameter> make_table() {
       {"glare.aperture_strength", "", passes,
        "This share of what the aperture diffracts is added, instead of `bloom_strength` and `streak_strength`; 1 is all of it.",
        RealKind{[](auto& s) { return &s.glare.aperture_strength; }, 0, 1000, logarithmic, 0.001}},
+  };
+}
 
+std::vector<Parameter> lens_parameters() {
+  using enum ChangeCost;
+  return {
       {"lens.noise", "", view,
        "The virtual layer gets the footage's grain, as measured on the tag; \"auto\" adds it where it is more than rounding's "
        "own.",
@@ -174,7 +206,6 @@ std::vector<Parameter> make_table() {
        SwitchKind{[](auto& s) { return &s.lens.defocus; }}},
       {"lens.distortion", "", view, "The virtual layer is bent as the camera file says; \"auto\" is on.",
        SwitchKind{[](auto& s) { return &s.lens.distortion; }}},
-
       {"lens.shutter", "", view,
        "The shutter is open for this share of the frame's interval, which sets the motion blur; 0 measures it on the tag.",
        RealKind{[](auto& s) { return &s.lens.shutter; }, 0, 1}},
@@ -185,7 +216,13 @@ std::vector<Parameter> make_table() {
        "The virtual layer gets the footage's own resolution of colour; false gives it all that the output can hold, and \"auto\" "
        "is on.",
        SwitchKind{[](auto& s) { return &s.lens.chroma_subsampling; }}},
+  };
+}
 
+std::vector<Parameter> quality_parameters() {
+  using enum ChangeCost;
+  using enum Scale;
+  return {
       {"quality.tolerance", "", bake,
        "This visible error is allowed, as a share of white; `quality.rays` is chosen from it where left out.",
        RealKind{[](auto& s) { return &s.quality.tolerance; }, 0.0001, 0.5, logarithmic}},
@@ -210,6 +247,15 @@ std::vector<Parameter> make_table() {
       {"quality.receiver_points", "", bake, "The grid that holds the shadow has this many points along each side.",
        IntegerKind{[](auto& s) { return &s.quality.receiver_points; }, 2, 1024, logarithmic}},
   };
+}
+
+/// The parts in the order of the documentation.
+std::vector<Parameter> make_table() {
+  std::vector<Parameter> table;
+  for (const auto part : {tag_parameters, object_parameters, probe_parameters, exposure_parameters, bloom_and_streak_parameters,
+                          emission_and_aperture_parameters, lens_parameters, quality_parameters})
+    for (Parameter& parameter : part()) table.push_back(std::move(parameter));
+  return table;
 }
 
 }  // namespace
