@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "app/tools/probe_merge/ball.hpp"
-#include "app/tools/probe_merge/response.hpp"
+#include "app/tools/probe_merge/radiance_map.hpp"
 #include "render/probe/probe.hpp"
 
 namespace catchlight::app {
@@ -18,8 +18,8 @@ struct BallPicture {
 
 struct AssembledProbe {
   render::Probe probe;            ///< latlong
-  double blind_share = 0;         ///< of all directions: hidden by the ball in every view; filled from its rim
-  double photographer_share = 0;  ///< of all directions: seen only around a camera's own reflection
+  double blind_share = 0;         ///< share of all directions that the ball hides in every view; filled from its rim
+  double photographer_share = 0;  ///< share of all directions that are seen only around a camera's own reflection
   double clipped_sr = 0;          ///< solid angle of what is only known to be at least as bright as written
   double clipped_light = 0;       ///< its share of all light (luminance · sr), at least
 };

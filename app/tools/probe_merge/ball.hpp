@@ -31,7 +31,7 @@ std::vector<glm::dvec2> outline_of(const BallCircle& circle);
 /// Least squares (Kåsa 1976).
 BallCircle fit_circle(const std::vector<glm::dvec2>& points_px);
 
-/// Where the ball shows what comes from one direction.
+/// The place on the ball that shows what comes from one direction.
 struct BallSight {
   glm::dvec2 px{0.0};
   double from_camera_rad = 0;  ///< between the direction and the one from the ball to the camera
@@ -54,7 +54,7 @@ class BallView {
   BallSight sight(const glm::dvec3& direction_camera) const;
 
   const BallCircle& circle() const { return circle_; }
-  /// In the ball's radii; infinite where rays are parallel.
+  /// The camera's distance in the ball's radii; infinite where rays are parallel.
   double distance_radii() const { return distance_radii_; }
 
  private:

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr int kSearchSidePx = 640;  ///< Hough's circle is sought in a picture this small
-constexpr double kDarkest = 1e-3;   ///< of the median: below, noise has edges too
+constexpr double kDarkest = 1e-3;   ///< share of the median; below it noise has edges, too
 
 /// Logarithm of luminance, as an edge is one in any exposure; 1 is a factor of two.
 cv::Mat log_luminance(const Image& radiance) {
@@ -33,7 +33,7 @@ cv::Mat log_luminance(const Image& radiance) {
   return picture;
 }
 
-/// As 8-bit codes, 4 stops from the median up and down: what Hough's transform takes.
+/// 8-bit codes of 4 stops up and down from the median: what Hough's transform takes.
 cv::Mat codes_for_search(const cv::Mat& log_picture, double scale) {
   cv::Mat small, codes;
   cv::resize(log_picture, small, {}, scale, scale, cv::INTER_AREA);
@@ -51,9 +51,9 @@ std::vector<BallCircle> candidates(const cv::Mat& log_picture) {
   const int side = std::min(codes.cols, codes.rows);
   std::vector<cv::Vec3f> found;
   cv::HoughCircles(codes, found, cv::HOUGH_GRADIENT, 1.5, side / 20.0, 100, 20, side / 20, side / 2);
-  constexpr std::size_t kMost = 12;
+  constexpr std::size_t kMaxCandidates = 12;
   std::vector<BallCircle> circles;
-  for (std::size_t i = 0; i < std::min(found.size(), kMost); ++i)
+  for (std::size_t i = 0; i < std::min(found.size(), kMaxCandidates); ++i)
     circles.push_back({(glm::dvec2(found[i][0], found[i][1]) + 0.5) / scale - 0.5, found[i][2] / scale});
   return circles;
 }
@@ -66,8 +66,8 @@ float at(const cv::Mat& picture, const glm::dvec2& px) {
   return glm::mix(top, glm::mix(picture.at<float>(y + 1, x), picture.at<float>(y + 1, x + 1), right), down);
 }
 
-/// Where it is steeper than around, along a ray from the circle's centre. Steps only: towards the rim reflections are pressed
-/// together, and slope more than many a silhouette.
+/// The radii at which the picture is steeper than around, along a ray from the circle's centre. Only steps count: towards the rim
+/// reflections are pressed together, and slope more than many a silhouette.
 std::vector<double> edge_radii(const cv::Mat& log_picture, const BallCircle& circle, const glm::dvec2& outward, double reach_px) {
   constexpr double kMinStep = 0.05, kStepPx = 0.25, kHalfPx = 0.5, kSharper = 2;
   const double aside_px = std::max(2.0, 0.015 * circle.radius_px);
@@ -116,8 +116,8 @@ std::vector<glm::dvec2> edge_points(const cv::Mat& log_picture, const BallCircle
   return points;
 }
 
-/// Where a silhouette is a circle: stereographic about the camera's axis, which keeps circular cones circles; as it is where the
-/// camera is far away.
+/// The points in a projection that shows the silhouette as a circle: stereographic about the camera's axis, which keeps circular
+/// cones circles; unchanged where the camera is far away.
 std::vector<glm::dvec2> as_circle(const std::vector<glm::dvec2>& points_px, const std::optional<CameraModel>& camera) {
   if (!camera) return points_px;
   std::vector<glm::dvec2> flat;
@@ -153,16 +153,16 @@ std::vector<glm::dvec2> agreeing(const std::vector<glm::dvec2>& points_px, const
 
 std::vector<glm::dvec2> find_ball_outline(const Image& radiance, const std::optional<CameraModel>& camera,
                                           const std::string& what) {
-  constexpr std::size_t kFewest = 120;  // of 360 radii
+  constexpr std::size_t kMinPoints = 120;  // a third of the 360 radii
   const cv::Mat log_picture = log_luminance(radiance);
   std::vector<glm::dvec2> best;
   double longest_px = 0;  // what a ball reflects may be round too, but is smaller
   for (const BallCircle& candidate : candidates(log_picture)) {
     const double radius_px = candidate.radius_px;
     std::vector<glm::dvec2> points = agreeing(edge_points(log_picture, candidate, 0.12), camera, 0.003 * radius_px + 0.5);
-    if (points.size() < kFewest) continue;
+    if (points.size() < kMinPoints) continue;
     points = agreeing(edge_points(log_picture, fit_circle(points), 0.04), camera, 0.001 * radius_px + 0.3);
-    const double length_px = points.size() < kFewest ? 0 : static_cast<double>(points.size()) * fit_circle(points).radius_px;
+    const double length_px = points.size() < kMinPoints ? 0 : static_cast<double>(points.size()) * fit_circle(points).radius_px;
     if (length_px <= longest_px) continue;
     best = std::move(points);
     longest_px = length_px;

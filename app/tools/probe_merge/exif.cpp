@@ -42,7 +42,7 @@ class Tiff {
  private:
   std::optional<std::uint32_t> value(std::size_t at, std::size_t size) const { return number_at(bytes_, at, size, big_endian_); }
 
-  /// Where the directory's entry of that tag starts.
+  /// The offset at which the directory's entry of that tag starts.
   std::optional<std::size_t> find(std::size_t directory, std::uint32_t tag) const {
     constexpr std::size_t kEntryBytes = 12;
     const auto count = value(directory, 2);

@@ -41,7 +41,7 @@ void check(const MergeRequest& request) {
         "--view-yaw for each");
 }
 
-/// Of one view: the part of all times that is its own.
+/// One view's own part of all exposure times.
 std::vector<double> times_of(const MergeRequest& request, std::size_t view) {
   if (request.times_s.empty()) return {};
   std::size_t before = 0, all = 0;
@@ -62,15 +62,15 @@ std::string view_name(const MergeRequest& request, std::size_t view) {
   return request.views[view].front() + (request.views[view].size() > 1 ? " ..." : "");
 }
 
-/// The response of the first bracket that tells it stands for all: they are one camera's.
-class Responses {
+/// Finds the camera's response. That of the first bracket that tells it stands for all: they are one camera's.
+class ResponseFinder {
  public:
-  Responses(std::string wanted, Log& log) : wanted_(std::move(wanted)), log_(log) {}
+  ResponseFinder(std::string wanted, Log& log) : wanted_(std::move(wanted)), log_(log) {}
 
-  const ResponseCurves& of(const Bracket& bracket) {
+  const LightOfCodes& of(const Bracket& bracket) {
     const int max_code = bracket.front().max_code();
-    constexpr std::size_t kFewest = 3;
-    const bool is_recoverable = bracket.size() >= kFewest && max_code == 255;
+    constexpr std::size_t kMinPhotographs = 3;
+    const bool is_recoverable = bracket.size() >= kMinPhotographs && max_code == 255;
     if (wanted_ == "recover" && !is_recoverable && recovered_.front().empty())
       throw UsageError("--response recover needs at least three photographs with 8 bits; give more, or --response srgb");
     const bool recovers = wanted_ == "recover" || (wanted_ == "auto" && is_recoverable);
@@ -89,7 +89,7 @@ class Responses {
  private:
   std::string wanted_;
   Log& log_;
-  ResponseCurves recovered_, known_;
+  LightOfCodes recovered_, known_;
 };
 
 void warn_of_clipping(const std::string& name, const RadianceMap& map, const Bracket& bracket, Log& log) {
@@ -101,7 +101,7 @@ void warn_of_clipping(const std::string& name, const RadianceMap& map, const Bra
         " % of the pixels are clipped even in the shortest photograph; add shorter exposures until nothing on the ball is white");
 }
 
-RadianceMap radiance_of_view(const MergeRequest& request, std::size_t view, Responses& responses, Log& log) {
+RadianceMap radiance_of_view(const MergeRequest& request, std::size_t view, ResponseFinder& responses, Log& log) {
   ViewPictures pictures = read_view(request.views[view], times_of(request, view));
   if (auto* image = std::get_if<Image>(&pictures)) return radiance_of(std::move(*image));
   const Bracket& bracket = std::get<Bracket>(pictures);
@@ -157,8 +157,8 @@ glm::dmat3 orientation_of(const MergeRequest& request, std::size_t view, const I
     throw Error(name + ": the tag (" + request.tag->family + ", id " + std::to_string(request.tag->id) +
                 ") was not found; is all of it in the picture, sharp, with white around? --view-yaw does without a tag");
   log.info(name + ": tag found, corners within " + fixed_text(tag->corner_sigma_px, 2) + " px");
-  constexpr double kDoubtful = 0.05;
-  if (tag->ambiguity > kDoubtful)
+  constexpr double kMaxAmbiguity = 0.05;
+  if (tag->ambiguity > kMaxAmbiguity)
     log.warn(name + ": the tag is seen so that two poses explain it (the other one with " + fixed_text(100 * tag->ambiguity, 0) +
              " %); take it larger or more from the side");
   const glm::dmat3 probe_from_tag = glm::transpose(render::tag_from_probe(request.up, request.yaw_deg));
@@ -169,8 +169,8 @@ void match_gain(BallPicture& picture, const BallPicture& first, double photograp
   picture.gain = gain_between(first, picture, photographer_rad);
   const double ev = std::log2(picture.gain);
   log.info(name + ": brightened by " + fixed_text(ev, 2) + " EV to match the first view");
-  constexpr double kSuspiciousEv = 0.3;
-  if (std::abs(ev) > kSuspiciousEv)
+  constexpr double kMaxEv = 0.3;
+  if (std::abs(ev) > kMaxEv)
     log.warn(name + ": " + fixed_text(ev, 2) +
              " EV apart from the first view; did the light change, or are views turned wrongly?");
 }
@@ -178,8 +178,8 @@ void match_gain(BallPicture& picture, const BallPicture& first, double photograp
 void tell_losses(const AssembledProbe& assembled, Log& log) {
   log.info("hidden behind the ball: " + fixed_text(100 * assembled.blind_share, 2) +
            " % of all directions; photographer: " + fixed_text(100 * assembled.photographer_share, 2) + " %");
-  constexpr double kMuch = 0.001;
-  if (assembled.photographer_share > kMuch)
+  constexpr double kMaxShare = 0.001;
+  if (assembled.photographer_share > kMaxShare)
     log.warn(
         "the photographer and what is hidden behind the ball stay in the probe; a second view from 90 to 120 degrees around "
         "the ball removes both");
@@ -201,7 +201,7 @@ int width_for(const std::vector<BallPicture>& views) {
 render::Probe merge_probe(const MergeRequest& request, Log& log) {
   check(request);
   const double photographer_rad = glm::radians(request.photographer_deg);
-  Responses responses(request.response, log);
+  ResponseFinder responses(request.response, log);
   std::vector<BallPicture> views;
   for (std::size_t i = 0; i < request.views.size(); ++i) {
     RadianceMap radiance = radiance_of_view(request, i, responses, log);

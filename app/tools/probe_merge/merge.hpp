@@ -21,10 +21,10 @@ struct MergeRequest {
 
   std::optional<TagTarget> tag;  ///< seen beside the ball in every view; needs a camera
   render::UpAxis up = render::UpAxis::z;
-  double yaw_deg = 0;                                ///< of the probe on the tag, as the scene says
+  double yaw_deg = 0;                                ///< the probe's yaw on the tag, as the scene says
   std::vector<double> view_yaw_deg, view_pitch_deg;  ///< instead of a tag; one a view, or empty: 0
 
-  glm::dvec3 reflectance{1};  ///< of the ball
+  glm::dvec3 reflectance{1};  ///< the ball's
   double photographer_deg = 20;
   render::ProbeLayout layout = render::ProbeLayout::latlong;
   int width_px = 0;  ///< 0: as fine as the ball

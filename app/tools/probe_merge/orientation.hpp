@@ -20,7 +20,7 @@ struct TagSight {
 /// Empty where none shows it.
 std::optional<TagSight> find_tag(const Image& radiance, const CameraModel& camera, const TagTarget& target);
 
-/// Where the camera stands without a tag: `yaw_deg` 0 is at probe +z, looking at -z, as in the mirror-ball layout; 90 at +x.
+/// The orientation of a camera without a tag: `yaw_deg` 0 is at probe +z, looking at -z, as in the mirror-ball layout; 90 at +x.
 /// `pitch_deg` is how far the camera looks down. probe_from_camera.
 glm::dmat3 probe_from_camera(double yaw_deg, double pitch_deg);
 

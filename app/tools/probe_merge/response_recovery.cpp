@@ -1,9 +1,10 @@
+#include "app/tools/probe_merge/response_recovery.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <random>
 
-#include "app/tools/probe_merge/response.hpp"
 #include "catchlight/color.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/util/text.hpp"
@@ -68,13 +69,13 @@ std::vector<cv::Point> sample_pixels(const Bracket& bracket) {
   return samples;
 }
 
-/// One pixel's say in one photograph: trust · (log light + terms · unknowns - log exposure - log radiance) = 0.
+/// What one pixel of one photograph demands: trust · (log light + terms · unknowns - log exposure - log radiance) = 0.
 struct Equation {
   double trust, constant;
   Terms terms;
 };
 
-/// With the pixel's unknown radiance, the trusted mean of its equations, taken out. Empty where fewer than two say anything.
+/// A pixel's equations less their trusted mean, which takes its unknown radiance out. Empty where fewer than two say anything.
 std::vector<Equation> equations_of(const Bracket& bracket, const cv::Point& at, int channel) {
   std::vector<Equation> equations;
   Equation mean{0, 0, {}};
@@ -105,7 +106,7 @@ Fit fit_channel(const Bracket& bracket, const std::vector<cv::Point>& samples, i
   std::vector<Equation> equations;
   for (const cv::Point& at : samples)
     for (const Equation& equation : equations_of(bracket, at, channel)) equations.push_back(equation);
-  constexpr double kTowardsSrgb = 1e-4;  ///< of the weight: what no photograph tells stays as sRGB has it
+  constexpr double kTowardsSrgb = 1e-4;  ///< share of the weight; what no photograph tells stays as sRGB has it
   cv::Matx<double, kTerms, kTerms> normal = cv::Matx<double, kTerms, kTerms>::zeros();
   Terms right = Terms::all(0);
   double weights = 1e-30;
@@ -131,11 +132,18 @@ Fit fit_channel(const Bracket& bracket, const std::vector<cv::Point>& samples, i
 
 }  // namespace
 
-ResponseCurves recover_response(const Bracket& bracket) {
+LightOfCodes known_response(TransferFunction transfer, int max_code) {
+  LightOfCodes curves;
+  for (int code = 0; code <= max_code; ++code)
+    for (auto& curve : curves) curve.push_back(linear_from_code(transfer, static_cast<double>(code) / max_code));
+  return curves;
+}
+
+LightOfCodes recover_response(const Bracket& bracket) {
   constexpr std::size_t kMinEquations = 100;
   constexpr double kMaxEv = 0.25;
   const std::vector<cv::Point> samples = sample_pixels(bracket);
-  ResponseCurves curves;
+  LightOfCodes curves;
   for (int c = 0; c < 3; ++c) {
     const Fit fit = fit_channel(bracket, samples, c);
     if (fit.equations < kMinEquations) refuse(bracket, "hardly a pixel is neither black nor white in two of them");

@@ -114,7 +114,7 @@ TEST_F(ProbeMerge, RecoversTheResponseOfAFilmItWasNotTold) {
   const Image radiance = tests::photograph(BallScene{});
   const auto files = tests::write_bracket(radiance, kTimes, 0.7, folder.path("p"));
   const auto bracket = std::get<Bracket>(read_view(files, kTimes));
-  const ResponseCurves curves = recover_response(bracket);
+  const LightOfCodes curves = recover_response(bracket);
   for (int c = 0; c < 3; ++c)
     for (int code = 16; code <= 240; code += 8) {
       const double truth = tests::film_light(code / 255.0) / tests::film_light(128 / 255.0);

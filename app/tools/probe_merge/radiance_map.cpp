@@ -1,8 +1,9 @@
-#include "app/tools/probe_merge/response.hpp"
+#include "app/tools/probe_merge/radiance_map.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "catchlight/response.hpp"
 #include "catchlight/util/parallel.hpp"
 
 namespace catchlight::app {
@@ -17,9 +18,9 @@ double window(double code) {
   return smooth_step(0.01, 0.04, code) * (1 - smooth_step(0.90, kClippingCode, code));
 }
 
-/// What one code says, for any exposure.
+/// The light that one code stands for at exposure 1, and how far it is to be trusted.
 struct CodeValue {
-  double light, weight;  ///< weight: for exposure 1
+  double light, weight;
 };
 
 std::vector<CodeValue> code_values(const std::vector<double>& curve) {
@@ -37,7 +38,7 @@ std::vector<CodeValue> code_values(const std::vector<double>& curve) {
 
 class BracketMerger {
  public:
-  BracketMerger(const Bracket& bracket, const ResponseCurves& response) : bracket_(bracket) {
+  BracketMerger(const Bracket& bracket, const LightOfCodes& response) : bracket_(bracket) {
     for (int c = 0; c < 3; ++c) values_[c] = code_values(response[c]);
   }
 
@@ -74,14 +75,7 @@ class BracketMerger {
 
 }  // namespace
 
-ResponseCurves known_response(TransferFunction transfer, int max_code) {
-  ResponseCurves curves;
-  for (int code = 0; code <= max_code; ++code)
-    for (auto& curve : curves) curve.push_back(linear_from_code(transfer, static_cast<double>(code) / max_code));
-  return curves;
-}
-
-RadianceMap merge_bracket(const Bracket& bracket, const ResponseCurves& response) {
+RadianceMap merge_bracket(const Bracket& bracket, const LightOfCodes& response) {
   const cv::Size size = bracket.front().codes.size();
   RadianceMap map{Image(size.width, size.height), std::vector<std::uint8_t>(size.area()), 0};
   const BracketMerger merger(bracket, response);
