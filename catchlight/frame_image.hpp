@@ -13,7 +13,7 @@ namespace catchlight {
 /// The codes of part of a frame as they were stored: luma of every pixel, and colour at the resolution that the format has. A
 /// pixel's RGB code is luma + color of its block. All normalised: 0 is the stream's black, 1 its white.
 struct CodePlanes {
-  PixelRect rect;                ///< of whole blocks, within the one that was asked for
+  PixelRect rect;                ///< whole blocks, within the rectangle that was asked for
   glm::ivec2 block_shift{0};     ///< log2 of the pixels of a block: (1, 1) where the format is 4:2:0
   std::vector<float> luma;       ///< row-major
   std::vector<glm::vec3> color;  ///< RGB less luma, a value a block, row-major

@@ -35,7 +35,7 @@ Distorted distort(const std::array<double, 8>& k, const glm::dvec2& p) {
   return result;
 }
 
-/// Beyond the limit: on along a line in the direction from the axis, the tangential part as it is at the limit.
+/// The model beyond its limit: a line in the direction from the axis, with the tangential part of the limit.
 Distorted continued(const std::array<double, 8>& k, const DistortionLimit& limit, const glm::dvec2& p) {
   const double radius = glm::length(p);
   const glm::dvec2 direction = p / radius;

@@ -9,23 +9,23 @@
 
 namespace catchlight {
 
-/// How far from the axis the rational model is one to one; beyond, it folds back into the picture. Functions that are given a
-/// limit continue the model along a line there, so that every point is seen somewhere and nothing unseen folds into the picture.
-/// Without one they take the model at its word.
+/// The distance from the axis up to which the rational model is one to one; beyond, it folds back into the picture. Functions
+/// that are given a limit continue the model along a line there, so that every point is seen somewhere and nothing unseen folds
+/// into the picture. Without one they take the model at its word.
 struct DistortionLimit {
-  double radius;     ///< of undistorted normalised coordinates: the model holds up to here
+  double radius;     ///< in undistorted normalised coordinates: the model holds up to here
   double distorted;  ///< the radial part's value there
-  double slope;      ///< and its derivative
+  double slope;      ///< the radial part's derivative there
 };
 
 /// The radius where the derivative falls under a tenth (a lens that squeezes more has no use for what is there), at most 20 (87
 /// degrees off axis). It is searched for step by step: whoever holds a camera for long holds its limit too.
 DistortionLimit distortion_limit(const CameraModel& camera);
 
-/// Where an ideal pixel is seen.
+/// The place at which an ideal pixel is seen.
 glm::dvec2 distort_px(const CameraModel& camera, const glm::dvec2& ideal_px, const DistortionLimit* limit = nullptr);
 
-/// The inverse, by Newton's method to 1e-9 px; empty where the model has none, which is beyond its field.
+/// The inverse of distort_px(), by Newton's method to 1e-9 px; empty where the model has none, which is beyond its field.
 std::optional<glm::dvec2> undistort_px(const CameraModel& camera, const glm::dvec2& distorted_px,
                                        const DistortionLimit* limit = nullptr);
 

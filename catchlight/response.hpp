@@ -34,7 +34,7 @@ class ResponseCurve {
  public:
   using Tables = std::array<std::vector<float>, 3>;
 
-  /// At least two values a channel, equally many, finite, each above the one before.
+  /// `light`: at least two values a channel, equally many, finite, each above the one before.
   explicit ResponseCurve(Tables light) : light_(std::move(light)) {}
 
   const Tables& light() const { return light_; }

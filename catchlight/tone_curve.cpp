@@ -6,7 +6,7 @@
 namespace catchlight {
 namespace {
 
-/// Beyond it light is not told apart; shaders/tone.frag has the same.
+/// Light beyond it is not told apart; shaders/tone.frag has the same.
 constexpr double kMaxLight = 1e9;
 
 }  // namespace

@@ -28,7 +28,7 @@ class ShotTracker {
   /// One pose a frame, from all of them.
   std::vector<SolvedPose> solve() const;
 
-  /// What each frame made of the print; empty where it was not refined directly.
+  /// How each frame shows the print; empty where it was not refined directly.
   const std::vector<std::optional<TagAppearance>>& appearances() const { return appearances_; }
 
  private:

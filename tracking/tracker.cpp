@@ -63,7 +63,7 @@ struct Tracker::Impl {
         search(camera_model, tag_target, tracker_options),
         refiner(camera_model, tag_target) {}
 
-  /// Where the tag should be seen now; empty once the memory is too old.
+  /// The pose in which the tag should be seen now; empty once the memory is too old.
   std::optional<RigidTransform> predict(double time_s) {
     // Frame times are rounded to microseconds or coarser: a frame exactly at the limit still counts.
     if (time_s - memory.last_time_s() > options.coast_s + 1e-6) {

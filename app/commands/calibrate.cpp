@@ -93,11 +93,11 @@ std::vector<BoardView> board_views(const CollectedViews& collected) {
   return views;
 }
 
-/// The same frames measured again, through the lens that their first measures gave.
-std::vector<BoardView> measured_again(const CollectedViews& collected, CalibrationBoard& board, const CameraModel& lens) {
+/// The same frames measured again, by the camera model that their first measures gave.
+std::vector<BoardView> measured_again(const CollectedViews& collected, CalibrationBoard& board, const CameraModel& camera) {
   std::vector<BoardView> views;
   for (const SeenBoard& seen : collected.boards)
-    if (auto view = board.find(seen.frame.luma(), lens)) {
+    if (auto view = board.find(seen.frame.luma(), camera)) {
       view->frame = seen.view.frame;
       views.push_back(std::move(*view));
     }
@@ -119,7 +119,7 @@ void calibrate(const Options& options, const Given& given, Log& log) {
   const LensModel most = lens_model(options.model);
   const CollectedViews collected = views_in(options, *board, log);
   Calibration calibration = solve_camera(board_views(collected), collected.width_px, collected.height_px, most);
-  if (board->needs_lens())
+  if (board->needs_camera())
     calibration =
         solve_camera(measured_again(collected, *board, calibration.camera), collected.width_px, collected.height_px, most);
 

@@ -28,7 +28,7 @@ void print(const std::string& name, const std::string& value) {
   std::printf("%-18s %s\n", name.c_str(), value.c_str());
 }
 
-/// As FFmpeg's libraries pack their versions.
+/// The version as text; FFmpeg's libraries pack it into one number.
 std::string ffmpeg_version(unsigned packed) {
   return std::to_string(AV_VERSION_MAJOR(packed)) + '.' + std::to_string(AV_VERSION_MINOR(packed)) + '.' +
          std::to_string(AV_VERSION_MICRO(packed));

@@ -12,14 +12,14 @@ namespace catchlight::app {
 namespace {
 
 constexpr const char* kChannels[] = {"red", "green", "blue"};
-constexpr double kMaxMended = 0.05;  ///< of white: more is no noise
+constexpr double kMaxMended = 0.05;  ///< share of white; larger dips are no noise
 
 struct Dip {
   double depth = 0;  ///< how far mending moved a point, at most
   std::size_t first = 0, last = 0;
 };
 
-/// Where and how far a sequence was changed.
+/// The dip that says where and how far a sequence was changed.
 Dip compare(const std::vector<double>& before, const std::vector<double>& after) {
   Dip dip;
   bool is_found = false;
@@ -61,7 +61,7 @@ double interpolated(const std::vector<double>& codes, const std::vector<double>&
   return light[i - 1] + (code - codes[i - 1]) / (codes[i] - codes[i - 1]) * (light[i] - light[i - 1]);
 }
 
-/// At every code of 8 and of 16 bits.
+/// Resamples the points at every code of 16 bits, which has those of 8 bits among them.
 void make_even(ResponsePoints& points) {
   constexpr int kCodes = 65536;
   ResponsePoints even;

@@ -18,7 +18,7 @@ namespace {
 const cv::Scalar kBlack(0, 0, 0), kWhite(255, 255, 255), kMagenta(255, 0, 255), kRed(255, 0, 0), kGreen(0, 255, 0),
     kBlue(0, 0, 255), kLightGreen(140, 255, 140), kOrange(255, 180, 60), kLightRed(255, 150, 150);
 constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
-constexpr int kFraction_bits = 8;  // of the coordinates that OpenCV draws lines between
+constexpr int kFractionBits = 8;  // bits of fraction in the coordinates that OpenCV draws lines between
 
 struct Stroke {
   std::vector<glm::dvec2> points_px;
@@ -42,8 +42,8 @@ struct Sketch {
   int halo_px() const { return stroke_px() + 2 * std::max(1, static_cast<int>(std::lround(unit_px))); }
 };
 
-/// Where the lens puts a point. Empty behind the camera, and beyond the field in which the lens model is one to one: there it
-/// would fold back into the picture.
+/// The pixel at which the lens shows a point. Empty behind the camera, and beyond the field in which the lens model is one to
+/// one: there it would fold back into the picture.
 std::optional<glm::dvec2> seen_px(const CameraModel& camera, const glm::dvec3& point_camera_m) {
   const auto ideal_px = project_ideal_px(camera, point_camera_m);
   const auto px = project_px(camera, point_camera_m);
@@ -52,7 +52,7 @@ std::optional<glm::dvec2> seen_px(const CameraModel& camera, const glm::dvec3& p
   return back_px && glm::distance(*back_px, *ideal_px) < 0.01 ? px : std::nullopt;
 }
 
-/// A straight line on or above the tag, which the lens may bend: as pieces, those that can be seen.
+/// Adds those pieces that can be seen of a straight line on or above the tag; the lens may bend it.
 void add_line(Sketch& sketch, const CameraModel& camera, const RigidTransform& camera_from_tag, const glm::dvec3& from_m,
               const glm::dvec3& to_m, const cv::Scalar& color) {
   constexpr int kPieces = 16;
@@ -92,7 +92,7 @@ const cv::Scalar& color_of(TrackState state) {
   return state == TrackState::tracking ? kLightGreen : kOrange;
 }
 
-/// In the top left corner, as wide as the picture at most.
+/// Adds the labels in the top left corner, as wide as the picture at most.
 void add_labels(Sketch& sketch, const TrackRow& row, int width_px) {
   sketch.labels.push_back({"frame " + std::to_string(row.frame) + "  " + name_of(row.state), color_of(row.state), {}});
   if (row.state == TrackState::tracking) {
@@ -115,7 +115,7 @@ void add_labels(Sketch& sketch, const TrackRow& row, int width_px) {
   }
 }
 
-/// Around everything drawn, within the frame.
+/// The rectangle around everything drawn, within the frame.
 PixelRect bounds_of(const Sketch& sketch, const Frame& frame) {
   const int border_px = sketch.halo_px() + 1;
   PixelRect bounds;
@@ -134,10 +134,10 @@ PixelRect bounds_of(const Sketch& sketch, const Frame& frame) {
   return intersect(bounds, {0, 0, frame.width_px(), frame.height_px()});
 }
 
-/// Each thing first wider in black, to be seen on any background.
+/// Draws each thing first wider in black, so that it is seen on any background.
 void draw(const Sketch& sketch, cv::Mat& canvas, const cv::Point& origin_px) {
   const auto fixed_point = [&](const glm::dvec2& px) {
-    constexpr double kOne = 1 << kFraction_bits;
+    constexpr double kOne = 1 << kFractionBits;
     return cv::Point(cvRound((px.x - origin_px.x) * kOne), cvRound((px.y - origin_px.y) * kOne));
   };
   for (const bool halo : {true, false}) {
@@ -145,14 +145,14 @@ void draw(const Sketch& sketch, cv::Mat& canvas, const cv::Point& origin_px) {
     for (const Stroke& stroke : sketch.strokes)
       for (std::size_t i = 1; i < stroke.points_px.size(); ++i)
         cv::line(canvas, fixed_point(stroke.points_px[i - 1]), fixed_point(stroke.points_px[i]), halo ? kBlack : stroke.color,
-                 thickness, cv::LINE_AA, kFraction_bits);
+                 thickness, cv::LINE_AA, kFractionBits);
     for (const Label& label : sketch.labels)
       cv::putText(canvas, label.text, label.baseline_px - origin_px, kFont, sketch.font_scale, halo ? kBlack : label.color,
                   thickness, cv::LINE_AA);
   }
 }
 
-/// The composite over a larger rectangle; what is new is unchanged.
+/// Grows the composite to hold `bounds`; its new pixels leave the frame as it is.
 void grow(Composite& composite, const PixelRect& bounds) {
   const PixelRect old = composite.rect, grown = unite(old, bounds);
   const auto width = static_cast<std::size_t>(grown.width);
@@ -173,7 +173,7 @@ float* pixel(Composite& composite, int x, int y) {
   return composite.rgba.data() + 4 * index;
 }
 
-/// Codes of 8 bits, RGB: fine enough for what antialiased edges are blended with.
+/// The frame in codes of 8 bits, RGB: fine enough for what antialiased edges are blended with.
 cv::Mat plate_codes(const Frame& frame, const PixelRect& rect) {
   Plate plate = frame.rgb(rect);
   cv::Mat codes;
@@ -190,7 +190,7 @@ cv::Mat plate_codes(const Frame& frame, const PixelRect& rect) {
   return codes;
 }
 
-/// What the frame with its composite shows.
+/// The codes that the frame shows with its composite.
 cv::Mat shown_codes(const Frame& frame, Composite& composite, const PixelRect& rect) {
   cv::Mat codes = plate_codes(frame, rect);
   for (int y = 0; y < rect.height; ++y)

@@ -1,4 +1,4 @@
-// What the tracker believes, drawn over a finished frame: `overlay --debug`.
+// Draws what the tracker found over a finished frame: `overlay --debug`.
 #pragma once
 
 #include "app/media/pixels/frame.hpp"
@@ -8,10 +8,10 @@
 
 namespace catchlight::app {
 
-/// Adds to `composite`, what was put into `frame`: the tag's outline (white), a cross on each corner (magenta) and half a tag's
-/// side of its axes (x red, y green, z blue), all through the lens; and frame number, state, residual and ambiguity as text. A
-/// frame without a pose gets the text alone. Lines and text are as large beside the picture at every resolution. Pixels that
-/// nothing is drawn on stay as they are.
+/// Draws into `composite`, which was put into `frame` already: the tag's outline (white), a cross on each corner (magenta) and
+/// half a tag's side of its axes (x red, y green, z blue), all through the lens; and frame number, state, residual and ambiguity
+/// as text. A frame without a pose gets the text alone. Lines and text keep their size beside the picture at every resolution.
+/// Pixels that nothing is drawn on stay as they are.
 void draw_debug(const Frame& frame, const TrackRow& row, const CameraModel& camera, double tag_size_m, Composite& composite);
 
 }  // namespace catchlight::app

@@ -1,4 +1,4 @@
-// One frame on its way from footage to footage.
+// One frame on its way from the footage to the output.
 #pragma once
 
 #include "app/media/pixels/frame.hpp"
@@ -8,7 +8,7 @@
 
 namespace catchlight::app {
 
-/// Every step fills in its own part.
+/// A frame and what becomes of it; every step of the session fills in its own part.
 struct FrameJob {
   Frame image;                   ///< decode()
   bool is_before_range = false;  ///< decode(): the tracker's memory and the adapting exposure need it, the output does not

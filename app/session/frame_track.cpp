@@ -33,7 +33,7 @@ bool is_in_picture(const CameraModel& camera, const TagTarget& target, const Rig
   return false;
 }
 
-/// A row's pose; a tag that went on out of the picture is lost.
+/// Sets the row's pose; a tag that has left the picture is lost.
 void set_pose(TrackRow& row, TrackState state, const RigidTransform& camera_from_tag, const CameraModel& camera,
               const TagTarget& target) {
   const bool is_lost = state == TrackState::lost || !is_in_picture(camera, target, camera_from_tag);
@@ -64,7 +64,7 @@ tracking::ExposureMatch exposure_match(const CameraModel& camera, const SceneSet
   return {camera, scene.tag.target(), {scene.tag.white_albedo, scene.tag.black_albedo}};
 }
 
-/// Only where the virtual layer follows the footage's exposure does it matter that it could not be read.
+/// What to say where the exposure could not be read; that matters only where the virtual layer follows it.
 std::optional<std::string> exposure_warning(const tracking::ExposureCounts& counts, const SceneSettings::Exposure& settings) {
   return follows_footage(settings.mode) ? counts.warning() : std::nullopt;
 }

@@ -1,4 +1,4 @@
-// One row of the track a frame: pose and exposure. Tracked from the pictures, or read from a track file.
+// The row of the track for each frame (pose and exposure), tracked from the pictures or read from a track file.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ class FrameTrack {
  public:
   virtual ~FrameTrack() = default;
 
-  /// Frames come in order, none left out.
+  /// The frame's row. Frames come in order, none is left out.
   virtual TrackRow row(const Frame& frame) = 0;
 
   /// Whether row() tracks, or only looks up what is known.
@@ -36,10 +36,10 @@ class ShotTrack {
   ShotTrack(const CameraModel& camera, const SceneSettings& scene);
   ~ShotTrack();
 
-  /// Frames come in order, none left out.
+  /// Tracks a frame. Frames come in order, none is left out.
   void add(const Frame& frame);
 
-  /// One row a frame. The exposure is as tracking/camera/exposure_match.hpp says of recorded footage.
+  /// One row a frame. Exposures are those of recorded footage in tracking/camera/exposure_match.hpp.
   std::vector<TrackRow> solve() const;
 
   /// What the user should know of the rows that solve() gave, if anything.
@@ -50,7 +50,8 @@ class ShotTrack {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Frames that `rows` does not have count as lost. Rows without exposure (bare poses) are measured in the pictures.
+/// Looks up each frame in `rows`; one that they do not have counts as lost. Rows without exposure (bare poses) are measured in
+/// the pictures.
 std::unique_ptr<FrameTrack> make_recorded_track(std::vector<TrackRow> rows, const CameraModel& camera,
                                                 const SceneSettings& scene);
 

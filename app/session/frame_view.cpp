@@ -124,11 +124,11 @@ glm::dmat3 noise_mix(const NoiseModel& noise) {
   const glm::dmat3 c = covariance(noise, kGrey);
   const glm::dvec3 w = kLuminanceWeights, one(1.0), with_luma = c * w;
   const double luma = std::max(glm::dot(w, with_luma), 0.0);
-  // Colour C = n - Y: its covariance, and its own with Y.
+  // Colour is C = n - Y; `color` is its covariance, and `shared` its covariance with Y.
   const glm::dmat3 color =
       c - glm::outerProduct(one, with_luma) - glm::outerProduct(with_luma, one) + luma * glm::outerProduct(one, one);
   const glm::dvec3 shared = with_luma - luma;
-  // C has no luma, so red and blue say all of it: Cholesky's factor of theirs.
+  // C has no luma, so red and blue say all of it: this is the Cholesky factor of their covariance.
   const double rr = std::sqrt(std::max(color[0][0], 0.0)), br = rr > 0 ? color[0][2] / rr : 0;
   const double bb = std::sqrt(std::max(color[2][2] - br * br, 0.0));
   const auto of_red_and_blue = [&](double red, double blue) { return glm::dvec3(red, -(w.r * red + w.b * blue) / w.g, blue); };

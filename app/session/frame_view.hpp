@@ -1,4 +1,4 @@
-// From what the track says of a frame, and what the scene file wants of it, to what the compositor draws.
+// The view of a frame that the compositor draws, from what the track says of the frame and what the scene file wants of it.
 #pragma once
 
 #include "app/media/pixels/frame.hpp"
@@ -23,34 +23,34 @@ struct LayerExposure {
 };
 
 /// The virtual layer's exposure in the row's frame. Where it follows the footage, paper under the probe's own irradiance E comes
-/// out as it did there: gain = white / (E/pi), and the frame's black is added. Else gain is 1 and nothing is added. The gain is
-/// times 2^ev.
+/// out as the tag's did in the frame: gain = white / (E/pi), and the frame's black is added. Else gain is 1 and nothing is added.
+/// The gain is then multiplied by 2^ev.
 LayerExposure layer_exposure(const SceneSettings::Exposure& settings, const TrackRow& row,
                              const glm::dvec3& tag_irradiance_over_pi);
 
-/// Luma's standard deviation on a grey of `light`, in 8-bit codes.
+/// The standard deviation of the noise in luma on a grey of `light`, in 8-bit codes.
 double noise_codes(const NoiseModel& noise, const PlateColor& response, double light);
 
 /// Splits noise of these variances and correlations into what pixels of one colour sample share and what each has alone
-/// (render::LensNoise::mix): colour is RGB less luma, a block's; luma is the pixel's, and goes with colour as far as it is
-/// correlated. Every channel's variance is 1; correlations are kept within 0.01.
+/// (render::LensNoise::mix): colour, which is RGB less luma, is the block's; luma is the pixel's, but follows colour as far as
+/// the two are correlated. Every channel's variance is 1; correlations are kept within 0.01.
 glm::dmat3 noise_mix(const NoiseModel& noise);
 
-/// Variance of the lens's blur beyond what a pixel's own square gives every picture, ours too; 0: none.
+/// The variance of the lens's blur beyond that of a pixel's own square, which every picture has, ours too; 0: none.
 double defocus_px2(Switch wanted, const BlurModel& blur);
 
-/// Share of the frame's interval over which to blur by motion; 0: not.
+/// The share of the frame's interval over which motion blurs the virtual layer; 0: it does not.
 double shutter_share(const SceneSettings::Lens& settings, const BlurModel& blur);
 
-/// The camera's part of the virtual layer in one frame.
+/// What the camera does to the virtual layer in one frame.
 render::LensView lens_view(const SceneSettings::Lens& settings, const TrackRow& row, const Frame& frame);
 
-/// Which effects are on, by what figure, and why.
+/// The plan's entries for these effects: which are on, by what figure, and why.
 std::vector<PlanEntry> lens_plan(const SceneSettings::Lens& settings, const std::vector<TrackRow>& rows, const Frame& frame,
                                  const glm::dvec3& vignetting);
 
-/// The camera of the frame: pose, exposure, black, and what the lens does, each as far as the settings want it. Every command
-/// that draws a frame, and the reference that it is compared with, sees it by this. No tone curve is set. `built` needs its files
+/// The frame's view: pose, exposure, black, and what the lens does, each as far as the settings want it. Every command draws a
+/// frame by this view, and so does the reference that it is compared with. No tone curve is set. `built` needs its files
 /// loaded.
 render::FrameView frame_view(const Frame& frame, const TrackRow& row, const CameraModel& camera, const SceneSettings& scene,
                              const BuiltScene& built);

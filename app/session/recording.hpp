@@ -14,17 +14,17 @@
 
 namespace catchlight::app {
 
-/// What the command line says about a recording; it goes before what the files say.
+/// What the command line says about a recording; it overrides what the files say.
 struct RecordingOverrides {
   std::optional<std::string> scene_file, camera_file;
   std::optional<double> fov_deg;                                ///< horizontal, instead of a camera file
   bool strict = false;                                          ///< refuse a probe with bad texels
-  std::string shader_folder;                                    ///< instead of the embedded shaders; empty: those
+  std::string shader_folder;                                    ///< replaces the embedded shaders, where not empty
   std::vector<std::pair<std::string, std::string>> parameters;  ///< key and text, in the order given
 };
 
 struct Recording {
-  std::string name;     ///< the folder's or the footage's own
+  std::string name;     ///< name of the folder, or of bare footage
   std::string folder;   ///< empty for bare footage
   std::string footage;  ///< what MediaSource::open takes
   std::optional<std::string> camera_file;
@@ -33,9 +33,9 @@ struct Recording {
   std::optional<std::string> poses_csv, truth_folder, mask_folder, expected_toml;  ///< where the folder has them
 };
 
-/// `location`: a folder with `video.{mp4,mkv,mov,avi}` or `plate/%04d.{png,jpg,exr}`, camera.yaml and scene.toml; or bare footage
-/// with the scene and the camera (or field of view) among the overrides. The footage itself is not opened. Throws Error: what is
-/// missing and how to supply it; UsageError: overrides that cannot be.
+/// Opens what is at `location`: a folder with `video.{mp4,mkv,mov,avi}` or `plate/%04d.{png,jpg,exr}`, camera.yaml and
+/// scene.toml; or bare footage with the scene and the camera (or field of view) among the overrides. The footage itself is not
+/// opened. Throws Error that says what is missing and how to supply it, and UsageError for overrides that cannot be.
 Recording open_recording(const std::string& location, const RecordingOverrides& overrides = {});
 
 /// The footage, read with the camera's response where the scene names one. Throws Error as MediaSource::open and load_response

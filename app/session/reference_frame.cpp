@@ -14,11 +14,11 @@ namespace {
 
 namespace reference = render::reference;
 
-/// The exposure at each pixel: that at the tag, more or less by as much as vignetting is.
+/// The exposure at each pixel: that at the tag, times what vignetting leaves at the pixel against what it leaves at the tag.
 struct PixelExposure {
   LayerExposure at_tag;
   CameraModel camera;
-  double passed_at_tag = 1;  ///< share of light that vignetting leaves there
+  double passed_at_tag = 1;  ///< share of light that vignetting leaves at the tag
 
   glm::dvec3 gain(int x, int y) const { return at_tag.gain * (vignetting_at(camera, {x, y}) / passed_at_tag); }
 };
@@ -45,7 +45,7 @@ reference::ReferenceScene traced_scene(const SceneSettings& settings, const Buil
   return scene;
 }
 
-/// What the camera saw, without the camera. What its noise made darker than black is black.
+/// The light that the camera saw, before its exposure. What noise made darker than black is black.
 Image radiance_of(const Image& exposed_linear, const PixelExposure& exposure) {
   Image radiance = exposed_linear;
   for (int y = 0; y < radiance.height; ++y) {

@@ -1,4 +1,4 @@
-// A frame of footage with the object path traced into it.
+// A frame of footage into which the object is path-traced.
 #pragma once
 
 #include "app/session/frame_job.hpp"
@@ -14,13 +14,13 @@ struct ReferenceQuality {
   int bounces = 6;
 };
 
-/// Exposed linear light, Rec. 709, the whole frame: where the object changes nothing it is the frame's own. The frame's view is
+/// The whole frame in exposed linear light, Rec. 709; where the object changes nothing it is the frame's own. The job's view is
 /// set, and the tag is found in it. The receiver's own light is read from the frame, so what the camera clipped stays clipped.
 /// `built` needs its files loaded.
 Image trace_reference_frame(const FrameJob& job, const SceneSettings& settings, const BuiltScene& built,
                             const ReferenceQuality& quality, const ProgressHandler& progress);
 
-/// In the frame's own coding: PNG of 8 bits a channel, or 16 where the footage has more than 8. Written beside and renamed.
+/// Writes a PNG in the frame's own coding, of 8 bits a channel, or 16 where the footage has more; beside `path`, then renamed.
 /// Throws Error, or UsageError where `path` exists and `overwrite` is false.
 void write_reference_png(const std::string& path, const Image& exposed_linear, const Frame& frame, bool overwrite);
 

@@ -44,8 +44,8 @@ class StageTimer {
 
 struct Report {
   std::int64_t frames = 0, tracked_frames = 0, coasting_frames = 0, lost_frames = 0;
-  std::int64_t glare_frames = 0;  ///< in which glare was drawn
-  double glare_share = 0;         ///< of the frame that it reached in those, on average
+  std::int64_t glare_frames = 0;  ///< frames in which glare was drawn
+  double glare_share = 0;         ///< share of the frame that glare reached in those, on average
   double fps = 0;        ///< frames a second of wall-clock time over all that was done: tracking, building, drawing, encoding
   std::string renderer;  ///< GL_RENDERER
   StageTimer stages;
@@ -56,14 +56,14 @@ struct Report {
   void count(const TrackRow& row);
 };
 
-/// JSON: frames, tracked_frames, coasting_frames, lost_frames, glare.{frames,share}, fps, renderer,
+/// The report as JSON: frames, tracked_frames, coasting_frames, lost_frames, glare.{frames,share}, fps, renderer,
 /// stages.{name}.{median_ms,p95_ms}, plan, warnings.
 std::string report_json(const Report& report);
 
-/// Written beside and renamed; throws as write_text_file.
+/// Writes the JSON beside `path` and renames it; throws as write_text_file.
 void write_report(const std::string& path, const Report& report, bool overwrite);
 
-/// A few lines without the last line's end.
+/// The report in a few lines; the last has no line end.
 std::string report_summary(const Report& report);
 
 }  // namespace catchlight::app

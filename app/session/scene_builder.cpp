@@ -15,7 +15,7 @@
 namespace catchlight::app {
 namespace {
 
-/// What the object's transfer may take of memory.
+/// The memory that the object's transfer may take.
 constexpr std::size_t kTransferBytes = std::size_t{512} << 20;
 
 /// Rays of all vertices together, so that a million triangles bake in minutes; a vertex has kMinRays at least.
@@ -29,7 +29,7 @@ std::string origin_of(const SceneSettings& settings, const std::string& key) {
   return settings.is_by_hand(key) ? "set by hand" : "default";
 }
 
-/// A power of two, as low-discrepancy points want it.
+/// The rays that a tolerance needs: a power of two, as low-discrepancy points want it.
 int rays_for_tolerance(double tolerance) {
   const auto wanted = static_cast<unsigned>(std::clamp(std::ceil(kRayErrorFactor / tolerance), 64.0, 16384.0));
   return static_cast<int>(std::bit_ceil(wanted));
@@ -50,7 +50,7 @@ int choose_rays(const SceneSettings& settings, std::size_t vertices, std::vector
   return rays;
 }
 
-/// As many as asked for, or fewer for a mesh whose transfer would not fit the memory set apart for it.
+/// As many bands as asked for, or fewer for a mesh whose transfer would not fit the memory set apart for it.
 int choose_bands(const SceneSettings& settings, std::size_t vertices, std::vector<PlanEntry>& plan) {
   int bands = settings.quality.bands;
   std::string reason = origin_of(settings, "quality.bands");
@@ -66,7 +66,7 @@ std::string text_of(const glm::dvec3& v) {
   return number_text(v.x) + ' ' + number_text(v.y) + ' ' + number_text(v.z) + ' ';
 }
 
-/// The file as it is now: another name, size or date is another file.
+/// The key of a file as it is now: another name, size or date is another file.
 std::string file_key(const std::string& path) {
   std::error_code missing;
   const auto changed = std::filesystem::last_write_time(path, missing).time_since_epoch().count();
@@ -93,13 +93,13 @@ std::string frame_key(const glm::dmat3& rotation) {
   return text_of(rotation[0]) + text_of(rotation[1]) + text_of(rotation[2]);
 }
 
-/// By exact summation over the probe's texels, on the plane with normal tag +z.
+/// Irradiance / pi on the plane with normal tag +z, by exact summation over the probe's texels.
 glm::dvec3 irradiance_over_pi(const BuiltScene& built, const glm::dmat3& tag_from_light) {
   const glm::dmat3 probe_from_tag = glm::transpose(tag_from_light * built.orientation.light_from_probe);
   return render::irradiance(built.probe, probe_from_tag * glm::dvec3(0, 0, 1)) / glm::pi<double>();
 }
 
-/// As the probe saw it. One that turns with the camera shows another surface than the tag's in most frames.
+/// The surface around the tag as the probe saw it. A probe that turns with the camera shows another one in most frames.
 render::ReceiverAlbedo choose_receiver_albedo(const BuiltScene& built, const glm::dvec3& given, std::vector<PlanEntry>& plan) {
   if (built.orientation.follows_camera) {
     plan.push_back({"receiver albedo", "constant", "the probe shows another surface"});

@@ -1,4 +1,5 @@
-// From a scene's settings to what the compositor draws, part by part: a part is made anew only where what it depends on changes.
+// Makes what the compositor draws from a scene's settings, part by part: a part is made anew only where what it depends on
+// changes.
 #pragma once
 
 #include <array>
@@ -73,11 +74,11 @@ class SceneBuilder {
   BuiltScene built_;
   std::array<Part, kSceneParts> parts_;
   render::ReceiverAlbedo receiver_albedo_;
-  // As the probe's file has the light: probe.ev not applied.
+  // The light as the probe's file has it, before probe.ev.
   render::ShRgb harmonics_;
   std::vector<render::LightSample> samples_;
   render::ReflectionMap reflections_, rest_reflections_;
-  std::string drawn_;  ///< how often each part that is drawn had been made, and the gain, when `scene` last changed
+  std::string drawn_;  ///< the making of `scene` as it is: how often each part in it had been made, and the gain
 };
 
 /// Irradiance / pi on the printed tag, unshadowed, probe.ev applied: what white paper of albedo 1 would send back. The reference

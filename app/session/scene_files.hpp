@@ -17,14 +17,14 @@ render::Mesh load_objects(const SceneSettings& settings, const WarningHandler& w
 /// The probe as its file has it: probe.ev is not applied. Throws Error where the scene names none, and as render::load_probe.
 render::Probe load_scene_probe(const SceneSettings& settings, const WarningHandler& warn);
 
-/// How the light lies. The light frame is the frame of what the light is fixed to (the tag, or the camera), but for the probe's
-/// yaw: so nothing that is made of the probe in the light frame depends on the yaw.
+/// How the light lies. The light frame is the frame of what the light is fixed to (the tag, or the camera) without the probe's
+/// yaw, so that nothing that is made of the probe in the light frame depends on the yaw.
 struct LightOrientation {
   glm::dmat3 light_from_probe{1.0};
   glm::dmat3 fixed_from_light{1.0};  ///< the yaw: takes the light frame to the frame of what the light is fixed to
   bool follows_camera = false;       ///< the light is fixed to the camera instead of the tag
 
-  /// Rotation of the light frame against a tag that the camera sees so.
+  /// Takes the light frame to that of a tag which the camera sees in this rotation.
   glm::dmat3 tag_from_light(const glm::dmat3& camera_from_tag_rotation) const {
     return follows_camera ? glm::transpose(camera_from_tag_rotation) * fixed_from_light : fixed_from_light;
   }
@@ -32,7 +32,7 @@ struct LightOrientation {
 
 LightOrientation light_orientation(const SceneSettings::Probe& probe);
 
-/// Where the probe is taken to have been captured: on the tag's axis, at half the object's height.
+/// The place where the probe is taken to have been captured: on the tag's axis, at half the object's height.
 glm::dvec3 probe_in_tag_m(const render::Mesh& mesh);
 
 }  // namespace catchlight::app

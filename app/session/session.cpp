@@ -19,7 +19,7 @@ namespace {
   throw Error(footage + ": " + wanted + "; it has " + std::to_string(count) + " from " + std::to_string(first));
 }
 
-/// Where the footage says how long it is, a range that lies beside it is refused before anything is done.
+/// Refuses a range that lies beside the footage, where that says how long it is, before anything is done.
 void check_range(const std::string& footage, const FrameRange& range, const SourceInfo& info) {
   if (!info.frame_count) return;
   if (range.begin >= info.first_number + *info.frame_count || range.end <= info.first_number)

@@ -38,7 +38,7 @@ class Session {
  public:
   Session(Recording recording, SessionOptions options, Log& log);
 
-  /// Does at once what else happens when it is first needed: reads the scene's files, tracks recorded footage, and bakes.
+  /// Does at once what otherwise happens when it is first needed: reads the scene's files, tracks recorded footage, and bakes.
   void prepare();
 
   /// The next frame; none at the end of the range or of the footage, or where the footage is damaged.
@@ -47,14 +47,14 @@ class Session {
   void view(FrameJob& job) { renderer_.view(job); }
   void render(FrameJob& job);
 
-  /// A frame that is not to be drawn still has its part in the exposure that adapts.
+  /// Takes a frame that is not to be drawn: the exposure adapts to it as well.
   void skip(FrameJob& job) { renderer_.skip(job); }
 
   /// The track of the whole range without drawing anything. Takes the footage to its end.
   std::vector<TrackRow> track_range();
 
-  /// New settings for the frames to come, with no more redone than they ask for. Where the footage itself has to be read anew
-  /// (another response), or tracked anew, decode() starts at the first frame again.
+  /// Takes new settings for the frames to come, and redoes no more than they ask for. Where the footage itself has to be read
+  /// anew (another response), or tracked anew, decode() starts at the first frame again.
   void apply(const SceneSettings& settings);
 
   const Recording& recording() const { return recording_; }
@@ -64,16 +64,16 @@ class Session {
   const BuiltScene& load_scene() { return renderer_.load(); }
   const ShotRenderer& renderer() const { return renderer_; }
 
-  /// What is known of damage that ended the footage early.
+  /// A text on the damage that ended the footage early; empty where none did.
   const std::optional<std::string>& damage() const { return damage_; }
 
   /// The rows of the range so far, where options.keeps_track.
   const std::vector<TrackRow>& track_rows() const { return rows_; }
 
-  /// What was chosen and why; complete after the last frame.
+  /// The choices so far and their reasons; complete after the last frame.
   std::vector<PlanEntry> plan() const;
 
-  /// What was done so far.
+  /// The report on what was done so far.
   Report report() const;
 
   /// Runs `work`, e.g. encoding, as a stage of the report.
@@ -97,7 +97,7 @@ class Session {
   std::optional<std::string> damage_;
   std::vector<TrackRow> rows_;
   ThinnedSample<TrackRow> typical_rows_;  ///< for the plan
-  std::optional<Frame> last_image_;       ///< of the range, for the plan too
+  std::optional<Frame> last_image_;       ///< the range's last so far, for the plan too
   TrackRow last_row_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   Report report_;

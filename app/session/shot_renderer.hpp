@@ -16,8 +16,8 @@
 
 namespace catchlight::app {
 
-/// Everything is made when it is first needed, and made anew where settings ask for it. Errors are those of the scene's files,
-/// of a missing GL, and of the compositor.
+/// Everything is made when it is first needed, and made anew where settings ask for it. Throws as the scene's
+/// files, a missing GL and the compositor do.
 class ShotRenderer {
  public:
   /// `wants_layers`: frames get layers for compositing packages, which hold the scene's light and have no tone curve.
@@ -26,14 +26,14 @@ class ShotRenderer {
   ShotRenderer(const ShotRenderer&) = delete;
   ShotRenderer& operator=(const ShotRenderer&) = delete;
 
-  /// Settings for the frames to come.
+  /// Takes settings for the frames to come.
   void apply(const SceneSettings& settings);
 
-  /// The scene's files: what view() needs, and a first word on what is missing. Quick.
+  /// Reads the scene's files, which view() needs. Quick, so that what is missing is found early.
   const BuiltScene& load();
 
-  /// GL, the bake and the compositor: all that takes time before the first frame. Several renderers may live side by side: each
-  /// makes its context current before it draws.
+  /// Makes the GL context, the bake and the compositor: all that takes time before the first frame. Several renderers may live
+  /// side by side: each makes its context current before it draws.
   void prepare();
 
   /// Sets job.view from job.image and job.track.
@@ -45,7 +45,7 @@ class ShotRenderer {
   /// The exposure adapts to frames that are not drawn, too: it must see every frame of the footage, in order.
   void skip(FrameJob& job);
 
-  /// The last render()'s; empty where nothing was drawn.
+  /// The times of the last render()'s passes; empty where nothing was drawn.
   const std::vector<render::PassTime>& pass_times() const { return pass_times_; }
 
   const SceneSettings& settings() const { return settings_; }
@@ -73,7 +73,7 @@ class ShotRenderer {
   std::vector<render::PassTime> pass_times_;
 };
 
-/// The scene's part that the compositor's passes are made by.
+/// The part of the settings that the compositor's passes are made by.
 render::CompositorSettings compositor_settings(const SceneSettings& scene);
 
 }  // namespace catchlight::app

@@ -8,7 +8,7 @@
 namespace catchlight::app {
 namespace {
 
-/// Far enough past the end that the last poses know what comes after them.
+/// The range with a second more at its end, so that the last poses know what comes after them.
 FrameRange with_a_second_more(FrameRange range, const SourceInfo& info) {
   const auto second = static_cast<std::int64_t>(std::max(info.frame_rate, 1.0));
   range.end = std::min(range.end, FrameRange{}.end - second) + second;

@@ -17,10 +17,10 @@ namespace catchlight::app {
 
 struct SolvedShot {
   std::vector<TrackRow> rows;         ///< from the footage's first frame to the range's end
-  std::optional<std::string> damage;  ///< the footage broke off: what is known about it
+  std::optional<std::string> damage;  ///< a text on the damage that ended the footage early
 };
 
-/// Reads from the source's first frame to a second after the range's end, so that poses hardly depend on the range. The stages
+/// Tracks from the source's first frame to a second after the range's end, so that poses hardly depend on the range. The stages
 /// are "track decode", "track" (a frame each) and "solve" (once).
 SolvedShot solve_shot(MediaSource& source, const CameraModel& camera, const SceneSettings& scene, const FrameRange& range,
                       Log& log, StageTimer& stages);

@@ -84,7 +84,7 @@ struct SwitchKind {
 };
 struct VectorKind {
   Access<glm::dvec3> access;
-  double min, max;  ///< of each component
+  double min, max;  ///< bounds of each component
   Scale scale = Scale::linear;
 };
 

@@ -18,7 +18,7 @@ std::string text_of(const glm::dvec3& v) {
   return number_text(v.x) + ',' + number_text(v.y) + ',' + number_text(v.z);
 }
 
-/// As a message shows what was given.
+/// The text by which a message shows what was given.
 std::string shown(const ParameterValue& value) {
   return std::visit(
       Overloaded{[](bool flag) { return std::string(flag ? "true" : "false"); },

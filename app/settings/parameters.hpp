@@ -21,7 +21,7 @@ struct Parameter {
   ParameterKind kind;
 };
 
-/// In the order of the documentation: grouped by the key's first part.
+/// All rows in the order of the documentation: grouped by the key's first part.
 const std::vector<Parameter>& parameters();
 
 /// Null where there is none of that name.

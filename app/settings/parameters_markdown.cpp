@@ -38,7 +38,7 @@ bool is_in_section(const Parameter& parameter) {
   return parameter.key.find('.') != std::string::npos;
 }
 
-/// As it would stand in the scene file.
+/// The default as it would stand in the scene file.
 std::string shown_default(const Parameter& parameter) {
   const std::string text = parameter_text(SceneSettings{}, parameter);
   if (text.empty()) return "none";

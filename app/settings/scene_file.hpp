@@ -1,4 +1,4 @@
-// scene.toml.
+// Reads scene.toml.
 #pragma once
 
 #include <string>

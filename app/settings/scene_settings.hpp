@@ -1,4 +1,5 @@
-// What a scene file says: the tag, the objects on it, the light, the lens. Every member is a row of the table in parameters.cpp.
+// What a scene file says: the tag, the objects on it, the light, the lens. Every member is a row of the table in
+// parameter_table.cpp.
 #pragma once
 
 #include <array>
@@ -43,7 +44,7 @@ constexpr auto names_of(LightFrame) {
   return std::array{"tag", "camera"};
 }
 
-/// Where the virtual layer's exposure comes from (docs/exposure.md).
+/// The source of the virtual layer's exposure (docs/exposure.md).
 enum class ExposureMode {
   match,     ///< the footage's, read off the tag
   fixed,     ///< radiance as it is
@@ -108,8 +109,8 @@ struct SceneSettings {
     ExposureMode mode = ExposureMode::match;
     double ev = 0;
     std::string response = "footage";                 ///< as app/response/response_file.hpp says
-    double key = 0.18;                                ///< of "auto", as the next
-    double adapt_bright_s = 0.4, adapt_dark_s = 1.6;  ///< time constants
+    double key = 0.18;                                ///< what "auto" exposes the log-average to
+    double adapt_bright_s = 0.4, adapt_dark_s = 1.6;  ///< time constants of "auto"
   } exposure;
 
   render::GlareSettings glare;

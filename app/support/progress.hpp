@@ -11,7 +11,7 @@
 
 namespace catchlight::app {
 
-/// On a terminal a bar drawn over itself; else a line every tenth of the way; nothing when the log is quiet.
+/// Shows a bar that is drawn over itself on a terminal, else a line every tenth of the way; nothing when the log is quiet.
 class Progress {
  public:
   /// `total`: frames, where known. Without, the count is shown. `unit`: what is counted, e.g. "frames".

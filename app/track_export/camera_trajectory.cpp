@@ -6,31 +6,31 @@
 namespace catchlight::app {
 namespace {
 
-std::vector<CameraKey> camera_path(const std::vector<TrackRow>& rows, const glm::dmat3& world_from_tag,
-                                   const glm::dmat3& tracked_from_camera) {
-  std::vector<CameraKey> path;
+std::vector<CameraKey> camera_trajectory_keys(const std::vector<TrackRow>& rows, const glm::dmat3& world_from_tag,
+                                              const glm::dmat3& tracked_from_camera) {
+  std::vector<CameraKey> keys;
   for (const TrackRow& row : rows) {
     if (!row.found) continue;
     const RigidTransform tag_from_camera = inverse(row.camera_from_tag);
     CameraKey key{row.frame, row.time_s, world_from_tag * tag_from_camera.translation_m,
                   glm::normalize(glm::quat_cast(world_from_tag * tag_from_camera.rotation * tracked_from_camera))};
     // q and -q are the same rotation, but what lies between two keys is not.
-    if (!path.empty() && glm::dot(key.world_from_camera, path.back().world_from_camera) < 0)
+    if (!keys.empty() && glm::dot(key.world_from_camera, keys.back().world_from_camera) < 0)
       key.world_from_camera = -key.world_from_camera;
-    path.push_back(key);
+    keys.push_back(key);
   }
-  return path;
+  return keys;
 }
 
 }  // namespace
 
 std::vector<CameraKey> camera_path_in_tag(const std::vector<TrackRow>& rows) {
-  return camera_path(rows, glm::dmat3(1.0), glm::dmat3(1.0));
+  return camera_trajectory_keys(rows, glm::dmat3(1.0), glm::dmat3(1.0));
 }
 
 std::vector<CameraKey> camera_path_y_up(const std::vector<TrackRow>& rows, const SceneSettings& scene) {
   const glm::dmat3 tracked_from_camera(glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0, 0, -1));
-  return camera_path(rows, y_up_from_tag(scene), tracked_from_camera);
+  return camera_trajectory_keys(rows, y_up_from_tag(scene), tracked_from_camera);
 }
 
 glm::dmat3 y_up_from_tag(const SceneSettings& scene) {

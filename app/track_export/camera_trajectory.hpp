@@ -1,4 +1,4 @@
-// The path of the camera through a world, as the formats of other programs want it. Private to app/track_export.
+// The trajectory of the camera through a world, as the formats of other programs want it. Private to app/track_export.
 #pragma once
 
 #include <cstdint>

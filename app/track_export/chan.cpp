@@ -26,10 +26,10 @@ glm::dvec3 angles_around(const glm::dmat3& rotation, double y_rad, const glm::dv
           unwrapped(std::atan2(-m[1][0], m[0][0]), previous_rad.z)};
 }
 
-/// Of the two sets of angles that make this rotation, the one nearer to the previous frame's. Where the camera looks straight up
+/// That of the two sets of angles for this rotation which is nearer to the previous frame's. Where the camera looks straight up
 /// or down only a sum of y and z is determined: y stays.
 glm::dvec3 zxy_angles(const glm::dmat3& rotation, const glm::dvec3& previous_rad) {
-  constexpr double kVertical = 1e-9;  // of the cosine of x: below it, rounding decides about y
+  constexpr double kVertical = 1e-9;  // cosine of x below which rounding decides about y
   const double sin_y = rotation[2][0], cos_y = rotation[2][2];
   const bool is_vertical = std::hypot(sin_y, cos_y) < kVertical;
   const double y_rad = is_vertical ? previous_rad.y : std::atan2(sin_y, cos_y);

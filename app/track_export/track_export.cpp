@@ -18,7 +18,7 @@ using Rows = std::vector<TrackRow>;
 struct Format {
   std::string (*text)(const Rows& rows, const Shot& shot);
   bool holds_lost_frames = false;
-  bool is_pinhole = false;  ///< of the camera it knows the field of view alone
+  bool is_pinhole = false;  ///< all that it knows of the camera is the field of view
 };
 
 const std::map<std::string, Format>& formats() {
@@ -69,7 +69,7 @@ void write_track(const std::string& path, const std::vector<TrackRow>& rows, con
                  const WarningHandler& warn) {
   const Format& format = format_of(path);
   if (!format.holds_lost_frames && !has_pose(rows))
-    throw Error(path + ": no frame has a pose, so there is no camera path to write; .csv and .jsonl hold lost frames too");
+    throw Error(path + ": no frame has a pose, so there is no camera trajectory to write; .csv and .jsonl hold lost frames too");
   write_text_file(path, format.text(rows, shot), overwrite);
   if (const std::string missing = beyond_pinhole(shot.camera); format.is_pinhole && !missing.empty())
     warn(path + " does not hold " + missing + "; docs/track-formats.md says what to do about it");

@@ -15,8 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// In the same folder, so that renaming never copies; with the extension, which writers go by. Process numbers would not tell
-/// writers on two machines apart.
+/// A name in the same folder, so that renaming never copies, with the extension, which writers go by. It is random: process
+/// numbers would not tell writers on two machines apart.
 fs::path random_name_beside(const fs::path& target) {
   const std::string partial = ".partial-" + std::to_string(std::random_device()());
   return target.parent_path() / ('.' + target.stem().string() + partial + target.extension().string());

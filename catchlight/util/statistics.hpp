@@ -16,14 +16,15 @@ Value nth_smallest(std::vector<Value> values, std::size_t below) {
   return *place;
 }
 
-/// Of an even number of values, the upper of the two in the middle. `values` must not be empty.
+/// The middle value; of an even number, the upper of the two in the middle. `values` must not be empty.
 template <class Value>
 Value median(std::vector<Value> values) {
   const std::size_t below = values.size() / 2;
   return nth_smallest(std::move(values), below);
 }
 
-/// From the smallest at `share` 0 to the largest at 1; between two, the smaller. `values` must not be empty.
+/// The value at this share of the way through the sorted ones: the smallest at 0, the largest at 1; between two, the smaller.
+/// `values` must not be empty.
 template <class Value>
 Value quantile(std::vector<Value> values, double share) {
   const auto below = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));

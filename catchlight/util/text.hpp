@@ -12,7 +12,7 @@ namespace catchlight {
 /// The shortest text that reads back to the same bits.
 std::string number_text(double value);
 
-/// With that many digits after the point, never an exponent.
+/// The number with that many digits after the point, never an exponent.
 std::string fixed_text(double value, int digits);
 
 /// The whole of `text` as a number, else empty. No leading '+' or spaces; "inf" and "nan" are numbers here.

@@ -9,7 +9,7 @@
 namespace catchlight::tests {
 namespace {
 
-constexpr int kRaysAcross = 4;  ///< of a pixel
+constexpr int kRaysAcross = 4;  ///< rays along a side of a pixel
 constexpr double kSurround = 0.3;
 
 /// A lobe of a von Mises-Fisher's shape: 1 in its middle.

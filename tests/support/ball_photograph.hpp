@@ -39,7 +39,7 @@ Image photograph(const BallScene& scene);
 
 /// Normalised code of light; rises from (0, 0) to (1, 1).
 double film_code(double light);
-/// Its inverse.
+/// The inverse of film_code().
 double film_light(double code);
 
 /// 8-bit PNGs of radiance · time, through film_code() with noise and clipping; returns the files' names.

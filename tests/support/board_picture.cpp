@@ -15,7 +15,7 @@
 namespace catchlight::tests {
 namespace {
 
-constexpr int kRaysAcross = 4;  ///< of a pixel
+constexpr int kRaysAcross = 4;  ///< rays along a side of a pixel
 constexpr double kWhite = 0.6, kBlack = 0.03, kBackground = 0.2, kBlurPx = 0.7;
 
 /// Slopes x/z, y/z of the ray that the lens puts at `px`.

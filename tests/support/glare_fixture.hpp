@@ -22,7 +22,7 @@ struct Glared {
 Glared glared(GlarePass& pass, const Image& picture, const Image* emission = nullptr);
 Glared glared(const GlareSettings& settings, const Image& picture, const Image* emission = nullptr);
 
-/// Over all texels.
+/// The sum of a channel over all texels.
 double sum_of(const Image& image, int channel = 0);
 
 }  // namespace catchlight::render::test

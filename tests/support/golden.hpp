@@ -10,7 +10,7 @@
 
 namespace catchlight::render::test {
 
-/// Of display codes, full scale 1.
+/// What two pictures may differ by, in display codes of full scale 1.
 struct GoldenTolerance {
   double max_abs, mean_abs, min_ssim;
 };

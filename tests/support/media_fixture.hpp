@@ -1,5 +1,5 @@
-// What the media tests share: a folder that vanishes, the `ffmpeg` command as maker of inputs and as witness, frames made by
-// hand.
+// What the media tests share: a folder that vanishes, the `ffmpeg` command to make inputs and to check outputs, and frames made
+// by hand.
 #pragma once
 
 #include <gtest/gtest.h>

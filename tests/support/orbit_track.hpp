@@ -1,4 +1,4 @@
-// A camera path to export, and what reading it back takes: rotations and projection that share no code with what is tested.
+// A camera trajectory to export, and what reading it back takes: rotations and projection that share no code with what is tested.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -101,7 +101,7 @@ inline glm::dvec3 turned_back(const glm::dvec4& xyzw, const glm::dvec3& v) {
   return turned({-glm::dvec3(xyzw), xyzw.w}, v);
 }
 
-/// Where a camera with y up, looking along -z, with this vertical field of view sees a point: from the picture's middle, in units
+/// The place where a camera with y up that looks along -z sees a point: from the picture's middle, in units
 /// of the focal length.
 inline glm::dvec2 pinhole(const glm::dvec3& point_camera) {
   return glm::dvec2(point_camera.x, -point_camera.y) / -point_camera.z;

@@ -9,7 +9,7 @@
 namespace catchlight::tests {
 namespace {
 
-/// In the child: only what is safe between fork and exec, besides setenv, as tests have one thread.
+/// Turns the child into the command: only what is safe between fork and exec, besides setenv, as tests have one thread.
 [[noreturn]] void become(std::vector<char*>& arguments, const std::map<std::string, std::string>& environment,
                          const std::string& output, const std::string& error) {
   const auto redirect = [](int descriptor, const std::string& path) {

@@ -14,7 +14,7 @@
 namespace catchlight::tracking {
 namespace {
 
-constexpr int kRaysAcross = 8;  ///< of a pixel
+constexpr int kRaysAcross = 8;  ///< rays along a side of a pixel
 
 cv::Matx33d intrinsics(const CameraModel& camera) {
   return {camera.fx_px, 0, camera.cx_px, 0, camera.fy_px, camera.cy_px, 0, 0, 1};

@@ -26,7 +26,7 @@ const std::filesystem::path kFolder = "/usr/share/visp-images-data/ViSP-images/A
 struct Picture {
   const char* family;
   const char* file;
-  double size_share;  ///< of the paper's side, 0.25 m for tags 0 to 2 and half that for 3 and 4
+  double size_share;  ///< share of the paper's side, which is 0.25 m for tags 0 to 2 and half that for 3 and 4
   /// ViSP 3.5.0's (Debian 12) own error on tags 0 to 4: vpDetectorAprilTag with HOMOGRAPHY_VIRTUAL_VS, focal length 700 px, its
   /// pose's corners against the true pose's, as shape_error_px() has it.
   std::array<double, 5> visp_error_px;

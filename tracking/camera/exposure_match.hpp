@@ -11,7 +11,7 @@
 
 namespace catchlight::tracking {
 
-/// In how many of the frames with a pose the exposure is less than sure.
+/// The number of frames with a pose, and of those whose exposure is less than sure.
 struct ExposureCounts {
   std::int64_t found = 0, held = 0, guessed = 0;
   void add(const ExposureReading& reading, bool is_found);

@@ -124,7 +124,8 @@ glm::dvec2 line(double w, double wi, double wii, double wv, double wiv) {
   return through > 0 ? glm::dvec2(through, -kNoiselessLight * through) : glm::dvec2(0.0);
 }
 
-/// By cell: what of the print, and of the sheet that may go on around it, is far enough from every edge of the print.
+/// The part of each cell, of the print and of the sheet that may go on around it, that is far enough from every edge of the
+/// print.
 std::vector<CellBlocks> cells_of(const CodePlanes& planes, const CameraModel& camera, const RigidTransform& camera_from_tag,
                                  const BundledTag& tag, const Covariance2& blur_px2) {
   const TagPattern pattern(tag_layout(tag.family, tag.id));

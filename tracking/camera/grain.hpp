@@ -36,8 +36,8 @@ class GrainMeter {
   /// Counts where the row's tag was seen and its blur measured.
   void add(const FrameImage& frame, const TrackRow& row);
 
-  /// By weighted least squares; slopes are not negative, nor is the variance where light is 0.03 or more. Not measured where the
-  /// cells were too small.
+  /// The model that fits best by weighted least squares; slopes are not negative, nor is the variance where light is 0.03 or
+  /// more. Not measured where the cells were too small.
   NoiseModel model() const;
 
  private:

@@ -15,7 +15,7 @@
 namespace catchlight::tracking {
 namespace {
 
-constexpr double kSmallestCellPx = 3;  ///< below it, no pixel of a cell is free of its neighbours' light
+constexpr double kMinCellPx = 3;       ///< below it, no pixel of a cell is free of its neighbours' light
 constexpr int kSamplesAcross = 8;      ///< a cell's middle, at most: more would add nothing but time
 constexpr double kClippedShare = 0.1;  ///< more clipped samples would pull their mean
 constexpr double kTrimmedShare =
@@ -61,7 +61,7 @@ void count_clipped(const LinearPatch& patch, const glm::dvec3& linear, glm::ivec
 CellMean cell_mean(const LinearPatch& patch, const CellGrid& grid, int column, int row) {
   CellMean mean;
   const double cell_px = grid.cell_px(column, row);
-  if (cell_px < kSmallestCellPx) return mean;
+  if (cell_px < kMinCellPx) return mean;
   const int across = std::clamp(static_cast<int>(cell_px / 2), 1, kSamplesAcross);
   for (int i = 0; i < across * across; ++i) {
     const double u = 0.25 + 0.5 * (i % across + 0.5) / across, v = 0.25 + 0.5 * (i / across + 0.5) / across;

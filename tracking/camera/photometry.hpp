@@ -30,16 +30,17 @@ struct TagPhotometry {
   glm::dvec3 white_linear{0.0};
   glm::dvec3 black_linear{0.0};
   int white_pixels = 0, black_pixels = 0;
-  glm::bvec3 is_clipped{false};  ///< the white is: `white_linear` is only a lower bound there
+  glm::bvec3 is_clipped{false};  ///< the channel's white is clipped: `white_linear` is only a lower bound
 };
 
 /// The pixels that measure_photometry() wants to see.
 PixelRect photometry_region(const CameraModel& camera, const RigidTransform& camera_from_tag, const TagTarget& target);
 
-/// From the middles of the cells. Where these are too small, and the blur is known (direct refinement tells it), from all pixels
-/// of the tag: each is so much white and so much black by the model of tag_pattern.hpp. Empty where neither can be done, or white
-/// is not brighter than black. A quarter of the cells may be clipped, shadowed, lit or stained at either end without harm,
-/// channel by channel; where more of the white is clipped, `is_clipped` says so (black is 0 where it is not known either).
+/// Measures in the middles of the cells. Where these are too small, and the blur is known (direct refinement tells it), it takes
+/// all pixels of the tag: each is so much white and so much black by the model of tag_pattern.hpp. Empty where neither can be
+/// done, or white is not brighter than black. A quarter of the cells may be clipped, shadowed, lit or stained at either end
+/// without harm, channel by channel; where more of the white is clipped, `is_clipped` says so (black is 0 where it is not known
+/// either).
 std::optional<TagPhotometry> measure_photometry(const LinearPatch& patch, const CameraModel& camera,
                                                 const RigidTransform& camera_from_tag, const TagTarget& target,
                                                 const std::optional<Covariance2>& blur_px2 = {});

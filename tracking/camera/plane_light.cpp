@@ -21,7 +21,7 @@ struct Place {
   int samples_across;
 };
 
-/// Only the middles of cells: their edges are blurred into each other.
+/// The places on the tag are the middles of cells alone: edges are blurred into each other.
 std::vector<Place> places_of(const TagTarget& target) {
   constexpr int kCellSamples = 8, kPatchSamples = 12;
   std::vector<Place> places;

@@ -25,8 +25,8 @@ PixelRect plane_region(const CameraModel& camera, const RigidTransform& camera_f
 PlaneLight measure_plane(const LinearPatch& patch, const CameraModel& camera, const RigidTransform& camera_from_tag,
                          const TagTarget& target);
 
-/// By how much a channel became brighter: the mean of the places' ratios, weighted by what the noise of light leaves of them
-/// (their samples times their light), without the quarter of the weight at either end: what moved, shines, or stands on the
+/// The factor by which a channel became brighter: the mean of the places' ratios, weighted by what the noise of light leaves of
+/// them (their samples times their light), without the quarter of the weight at either end: what moved, shines, or stands on the
 /// plane. Where the ratios of that half differ by more than 5 %, the surroundings are not one surface with the tag (a tag in the
 /// hand), and its own cells alone count. Empty where fewer than eight places are known in both.
 std::optional<double> brightening(const PlaneLight& now, const PlaneLight& then, int channel);

@@ -15,7 +15,7 @@ using DetectorPtr = std::unique_ptr<apriltag_detector, decltype(&apriltag_detect
 using DetectionsPtr = std::unique_ptr<zarray_t, decltype(&apriltag_detections_destroy)>;
 
 /// The library thresholds in tiles of 4x4 pixels and divides by their number.
-constexpr int kSmallestImagePx = 16;
+constexpr int kMinImagePx = 16;
 
 void check_options(const TrackerOptions& options) {
   if (options.max_hamming < 0 || options.max_hamming > 2)
@@ -53,7 +53,7 @@ std::vector<Detection> Detector::detect(const LumaView& luma, double decimate) {
     throw Error("the detector's decimation must be from 1 to 8, not " + std::to_string(decimate));
   impl_->detector->quad_decimate = static_cast<float>(decimate);
   std::vector<Detection> found;
-  if (std::min(luma.width_px, luma.height_px) < kSmallestImagePx) return found;
+  if (std::min(luma.width_px, luma.height_px) < kMinImagePx) return found;
   // The library only reads the image, but its struct is not const-correct.
   image_u8_t image{luma.width_px, luma.height_px, luma.stride, const_cast<std::uint8_t*>(luma.data)};
   const DetectionsPtr detections(apriltag_detector_detect(impl_->detector.get(), &image), apriltag_detections_destroy);

@@ -25,7 +25,7 @@ double side_px(const Quad& quad) {
   return std::sqrt(std::abs(doubled) / 2);
 }
 
-/// Without a prediction: fewest corrected bits, then the larger.
+/// The sighting to take without a prediction: the one with the fewest corrected bits, then the larger.
 std::optional<Sighting> most_trusted(const std::vector<Sighting>& sightings) {
   const auto worse = [](const Sighting& a, const Sighting& b) {
     if (a.detection.hamming != b.detection.hamming) return a.detection.hamming > b.detection.hamming;

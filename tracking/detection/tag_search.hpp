@@ -26,12 +26,12 @@ class TagSearch {
   /// Throws Error for an unknown family or an option out of range.
   TagSearch(const CameraModel& camera, const TagTarget& target, const TrackerOptions& options);
 
-  /// In the part of the frame around a predicted pose; `reach_px` is how far off the prediction may be. Large tags are sought in
-  /// a smaller picture.
+  /// Searches the part of the frame around a predicted pose; `reach_px` is how far off the prediction may be. Large tags are
+  /// sought in a smaller picture.
   std::optional<Sighting> near(const LumaView& luma, const RigidTransform& camera_from_tag, double reach_px);
 
-  /// In the whole frame, first in a smaller picture. With a prediction, a print that is both elsewhere and of another size is
-  /// another copy of the tag (a thumbnail, a reflection): better to coast for a moment than to jump to it.
+  /// Searches the whole frame, first in a smaller picture. With a prediction, a print that is both elsewhere and of another size
+  /// is another copy of the tag (a thumbnail, a reflection): better to coast for a moment than to jump to it.
   std::optional<Sighting> anywhere(const LumaView& luma, const std::optional<RigidTransform>& predicted);
 
  private:

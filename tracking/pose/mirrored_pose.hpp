@@ -17,7 +17,7 @@ struct PlanarSquare {
   double size_m;
 };
 
-/// Around all tags; empty where they are not all in the first one's plane: such a board has only one pose.
+/// The square around all tags; empty where they are not all in the first one's plane: such a board has only one pose.
 std::optional<PlanarSquare> planar_square(const std::vector<BundledTag>& tags);
 
 /// The pose that shows the square's corners in nearly the same places, and how far from them, rms, where that is known (else 0).

@@ -53,7 +53,7 @@ int quarter_turns_to_upright(const Quad& ideal_px) {
   return best;
 }
 
-/// From that frame back to the tag's: half a turn about x, then quarter turns about z.
+/// The rotation from that frame back to the tag's: half a turn about x, then quarter turns about z.
 glm::dmat3 tag_from_upright(int turns) {
   constexpr int kCos[] = {1, 0, -1, 0}, kSin[] = {0, 1, 0, -1};
   const glm::dmat3 quarter_turns{{kCos[turns], kSin[turns], 0}, {-kSin[turns], kCos[turns], 0}, {0, 0, 1}};

@@ -1,4 +1,4 @@
-// What a pose is worth in the picture, and what corners are worth as a pose.
+// How uncertain a pose's corners are in the picture, and how uncertain a pose is that was made of corners.
 #pragma once
 
 #include <array>

@@ -16,7 +16,7 @@ constexpr double kReachCells =
     0.7;  ///< how much of the uniform cell on either side is used; beyond it the blur of the next cell shows
 constexpr double kReachPx = 6;            ///< enough for both plateaus at any blur that tags are decoded in
 constexpr double kCornerClearancePx = 3;  ///< where the other edge's blur no longer shows
-constexpr double kLargestShiftPx = 2;
+constexpr double kMaxShiftPx = 2;
 constexpr double kSettledPx = 0.05;  ///< shifts below it would choose the same pixels again
 constexpr int kMaxPasses = 3;
 constexpr double kMaxColumns = 256;  ///< along an edge; more cost time and gain less than 0.003 px
@@ -32,7 +32,7 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) {
   return a.x * b.y - a.y * b.x;
 }
 
-/// Where the cells on either side of an edge end: signed distances from it at its start and end, positive inside.
+/// The ends of the cells on either side of an edge: signed distances from it at its start and end, positive inside.
 struct CellBand {
   double inside_start_px, inside_end_px, outside_start_px, outside_end_px;
 
@@ -153,7 +153,7 @@ struct Line {
 std::optional<EdgeFit> plausible_fit(std::span<const EdgePixel> pixels, bool white_inside) {
   const auto fit = fit_edge(pixels);
   if (!fit || (fit->step > 0) != white_inside) return std::nullopt;
-  if (std::max(std::abs(fit->shift_start_px), std::abs(fit->shift_end_px)) > kLargestShiftPx) return std::nullopt;
+  if (std::max(std::abs(fit->shift_start_px), std::abs(fit->shift_end_px)) > kMaxShiftPx) return std::nullopt;
   return fit;
 }
 
@@ -174,7 +174,7 @@ RefinedCorners refine_corners(const LumaView& luma, const CameraModel& camera, c
     ideal[i] = *corner;
   }
   const LinearTable linear = linear_table(luma);
-  double shift_px = kLargestShiftPx;
+  double shift_px = kMaxShiftPx;
   for (int pass = 0; pass < kMaxPasses && shift_px > kSettledPx; ++pass) {
     shift_px = 0;
     std::array<Line, 4> lines;

@@ -55,7 +55,7 @@ class PartView {
     return sampled.pattern.known ? std::optional(sampled) : std::nullopt;
   }
 
-  /// From -1 at the left and top side to 1.
+  /// The place of a cell coordinate across the tag: from -1 at the left and top side to 1.
   glm::dvec2 across(const glm::dvec2& cell) const { return 2.0 * cell / static_cast<double>(pattern_.cells_across()) - 1.0; }
 
  private:

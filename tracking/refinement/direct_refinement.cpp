@@ -164,8 +164,8 @@ struct DirectRefiner::Impl {
     }
   }
 
-  /// With the noise that the start has, then with what is left of it, as long as it falls: under a lenient loss, what occludes a
-  /// part of the tag still pulls.
+  /// Minimises with the noise that the start has, then with what is left of it, as long as it falls: under a lenient loss, what
+  /// occludes a part of the tag still pulls.
   Fit solve(const DirectModel& model, const DirectParameters& start) const {
     constexpr int kMaxRounds = 6;
     constexpr double kFallen = 0.9;
@@ -187,7 +187,7 @@ struct DirectRefiner::Impl {
     return fit;
   }
 
-  /// As solve(), then without what is occluded: `model` keeps the pixels that count.
+  /// Solves with all pixels, then without those that are occluded: `model` keeps the pixels that count.
   Fit solve_unoccluded(DirectModel& model, const DirectParameters& start) const {
     constexpr int kMaxRounds = 2;  // the first leaves less noise, in which fainter occluders show
     Fit fit = solve(model, start);

@@ -1,4 +1,4 @@
-// Where every pixel of a lens would be without its distortion, remembered: frames ask for the same pixels again and again.
+// The place that each pixel would have without distortion, remembered: frames ask for the same pixels again and again.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -21,7 +21,7 @@ const std::array<Normal, kNodes> kTable = [] {
   return made;
 }();
 
-/// Gauss-Legendre nodes on [-1, 1]; the negative twins are implied.
+/// Gauss-Legendre nodes on [-1, 1]; each stands for its negative, too.
 struct GaussNode {
   double at, weight;
 };

@@ -8,7 +8,7 @@ struct Normal {
   double cumulative;  ///< Φ(x)
 };
 
-/// Within 1e-6 of the closed form.
+/// Density and cumulative probability at x, within 1e-6 of the closed form.
 Normal normal(double x);
 
 /// Probability that X < a and Y < b for standard normal X and Y of correlation `rho`, within 1e-6 up to |rho| = 0.95; `at_a` and

@@ -24,7 +24,7 @@ class CellMap {
         weight_(static_cast<std::size_t>(side_ * side_)),
         count_(weight_.size()) {}
 
-  /// In cells, from the map's own corner; empty where the pixel is on none.
+  /// The pixel's place in cells, from the map's own corner; empty where it is on none.
   std::optional<glm::dvec2> place_of(const TagPixel& pixel) const {
     const auto point = view_.at(pixel.place.ideal_px);
     if (!point) return std::nullopt;
@@ -44,7 +44,7 @@ class CellMap {
     return cells;
   }
 
-  /// In a occluded cell, or within half a cell of one.
+  /// Whether the place is in an occluded cell, or within half a cell of one.
   bool is_suspect(const glm::dvec2& place) const {
     constexpr double kReach = 0.5;
     for (const glm::dvec2& corner : {glm::dvec2(-kReach, -kReach), {kReach, -kReach}, {kReach, kReach}, {-kReach, kReach}})
@@ -104,10 +104,10 @@ Inverted inverted_cells(const CameraModel& camera, const ResponseTable& response
 
 bool shows_another_print(const CameraModel& camera, const ResponseTable& response, const std::vector<TagPart>& parts,
                          const DirectParameters& at) {
-  constexpr int kFewest = 3;  // families differ in five bits at least
+  constexpr int kMinCells = 3;  // families differ in five bits at least
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const Inverted inverted = inverted_cells(camera, response, parts[i], at.light[i], at.camera_from_target);
-    if (std::min(inverted.to_white, inverted.to_black) >= kFewest) return true;
+    if (std::min(inverted.to_white, inverted.to_black) >= kMinCells) return true;
   }
   return false;
 }

@@ -1,4 +1,4 @@
-// The camera's response as a table: codes of linear light with their slope, and light of codes.
+// The camera's response as a table: from linear light to codes, with their slope, and from codes to light.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace catchlight::tracking {
 
-/// Codes here are normalised: 0 is the stream's black, 1 its white; 8-bit codes beyond them stay beyond.
+/// Codes are normalised here: 0 is the stream's black, 1 its white; 8-bit codes beyond them stay beyond.
 class ResponseTable {
  public:
   explicit ResponseTable(const LumaView& luma);
@@ -25,7 +25,7 @@ class ResponseTable {
   double normalised(std::uint8_t code) const { return (code - black_code_) / span_; }
   double codes_per_unit() const { return span_; }
 
-  /// Whether it was made for frames like this one.
+  /// Whether the table was made for frames like this one.
   bool fits(const LumaView& luma) const;
 
  private:

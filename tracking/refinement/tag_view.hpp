@@ -26,7 +26,7 @@ class TagView {
   /// The cell coordinate alone.
   std::optional<glm::dvec2> cell_at(const glm::dvec2& ideal_px) const;
 
-  /// Where a cell coordinate is seen, without distortion; empty behind the camera.
+  /// The pixel at which a cell coordinate is seen, without distortion; empty behind the camera.
   std::optional<glm::dvec2> ideal_px(const glm::dvec2& cell) const;
 
  private:

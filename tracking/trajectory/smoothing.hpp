@@ -1,4 +1,4 @@
-// Smooths a trajectory by what each of its poses is worth: not at all where they are sharp, firmly where they are not.
+// Smooths a trajectory by how certain each of its poses is: not at all where they are sharp, firmly where they are not.
 #pragma once
 
 #include <span>

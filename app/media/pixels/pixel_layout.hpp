@@ -1,4 +1,4 @@
-// Where the samples of a pixel format lie, for every format whose samples are whole bytes. Private to app/media.
+// The places of the samples of a pixel format, for every format whose samples are whole bytes. Private to app/media.
 #pragma once
 
 #include <array>

@@ -48,7 +48,7 @@ class MediaSource {
   /// skipped instead.)
   virtual std::optional<Frame> read() = 0;
 
-  /// For a sink that carries audio and timing over (null for sequences).
+  /// The stream whose audio and timing a sink carries over; null for sequences.
   virtual const AVStream* video_stream() const = 0;
 };
 

@@ -191,7 +191,7 @@ void VideoSource::send(const AVPacket* packet) {
   if (sent < 0 && sent != AVERROR_EOF && !request_.info.is_live) throw_damaged(ffmpeg_reason(sent));
 }
 
-// Of the file, which the decoder has not seen: it still holds frames from before the damage. Let it give them out first.
+// The file is damaged, and the decoder has not seen it: it still holds frames from before. They are given out first.
 void VideoSource::note_damage(const std::string& reason) {
   damage_ = reason;
   send(nullptr);
@@ -211,7 +211,7 @@ void VideoSource::check_frame(const AVFrame& picture) {
   }
 }
 
-// At the end of what could be read: was that all that the file announces?
+// Throws at the end of what could be read, where that was not all that the file announces.
 void VideoSource::check_complete() {
   if (!damage_.empty()) throw_damaged(damage_);
   if (request_.info.is_live) return;

@@ -1,4 +1,4 @@
-// Where finished frames go: an encoder or EXR layers.
+// The output of finished frames: an encoder or EXR layers.
 #pragma once
 
 #include <memory>

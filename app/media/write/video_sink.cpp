@@ -58,7 +58,7 @@ void VideoSink::write(const Frame& frame) {
   if (audio_) audio_->copy_until(source_us(frame.picture().pts), *output_);
 }
 
-// Null drains the encoder.
+// A null frame drains the encoder.
 void VideoSink::encode(const AVFrame* frame) {
   check_ffmpeg(avcodec_send_frame(encoder_.get(), frame), what());
   for (;;) {

@@ -16,7 +16,7 @@ struct VideoSinkRequest {
   VideoCodec codec = VideoCodec::h264;
   std::string audio_location;  ///< empty: no audio
   AVRational frame_rate{24, 1};
-  std::int64_t first_number = 0;  ///< of the source
+  std::int64_t first_number = 0;  ///< the source's first frame number
   SinkOptions options;
 };
 

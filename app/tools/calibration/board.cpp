@@ -39,11 +39,11 @@ class Checkerboard : public CalibrationBoard {
     return view;
   }
 
-  /// Around a meeting of four squares blur, coding and distortion are symmetrical.
-  bool needs_lens() const override { return false; }
+  /// It needs none: around a meeting of four squares blur, coding and distortion are symmetrical.
+  bool needs_camera() const override { return false; }
 
  private:
-  /// By gradients (Foerstner & Guelch 1987) in windows that see one corner only: a third less error on real boards than without.
+  /// Moves corners by gradients (Foerstner & Guelch 1987) in windows that see one corner only: a third less error on real boards.
   void refine(const cv::Mat& picture, std::vector<cv::Point2f>& corners) const {
     double square_px = std::numeric_limits<double>::max();
     for (int i = 0; i < shape_.area(); ++i) {
@@ -73,11 +73,11 @@ class TagBoard : public CalibrationBoard {
     for (int i = 0; i < grid.count(); ++i) layouts_.push_back(tracking::tag_layout(grid.family, grid.first_id + i));
   }
 
-  std::optional<BoardView> find(const LumaView& luma, const CameraModel& lens) override {
+  std::optional<BoardView> find(const LumaView& luma, const CameraModel& camera) override {
     BoardView view;
     std::vector<double> blurs_px;
     for (const auto& [index, detection] : tags_of_the_board(detector_.detect(luma)))
-      add_tag(view, blurs_px, index, tracking::refine_corners(luma, lens, detection.corners_px, layouts_[index]));
+      add_tag(view, blurs_px, index, tracking::refine_corners(luma, camera, detection.corners_px, layouts_[index]));
     constexpr std::size_t kMinTags = 4;
     if (view.points_px.size() < 4 * kMinTags) return {};
     view.blur_px = median(std::move(blurs_px));
@@ -85,10 +85,10 @@ class TagBoard : public CalibrationBoard {
   }
 
   /// Edges are straight only where distortion is taken out.
-  bool needs_lens() const override { return true; }
+  bool needs_camera() const override { return true; }
 
  private:
-  /// By index; an id that is in view twice cannot be told apart and is left out.
+  /// The detections by index; an id that is in view twice cannot be told apart and is left out.
   std::map<int, Detection> tags_of_the_board(const std::vector<Detection>& detections) const {
     std::map<int, Detection> tags;
     std::map<int, int> times;

@@ -24,13 +24,13 @@ class CalibrationBoard {
  public:
   virtual ~CalibrationBoard() = default;
 
-  /// Empty where the board, or too little of it, is seen. `lens` may be a guess; where it matters, a better one places points
-  /// better: needs_lens().
-  virtual std::optional<BoardView> find(const LumaView& luma, const CameraModel& lens) = 0;
-  virtual bool needs_lens() const = 0;
+  /// Empty where the board, or too little of it, is seen. `camera` may be a guess; where it matters, a better one places points
+  /// better: needs_camera().
+  virtual std::optional<BoardView> find(const LumaView& luma, const CameraModel& camera) = 0;
+  virtual bool needs_camera() const = 0;
 };
 
-/// Where black and white squares meet: `inner_corners` columns and rows, at least 3 each.
+/// The board whose points are where black and white squares meet: `inner_corners` columns and rows, at least 3 each.
 /// (cv::findChessboardCornersSB: Duda & Frese 2018.)
 std::unique_ptr<CalibrationBoard> make_checkerboard(const glm::ivec2& inner_corners, double square_m);
 

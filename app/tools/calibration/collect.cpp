@@ -31,7 +31,8 @@ double sharpness(const LumaView& luma) {
   return cv::norm(laplacian, cv::NORM_L2SQR) / static_cast<double>(picture.total());
 }
 
-/// Where in the picture, how large, how tilted and how turned a view is, so scaled that equal steps are worth the same.
+/// A view in numbers (where in the picture, how large, how tilted and how turned it is), so scaled that equal steps are worth the
+/// same.
 using Look = std::array<double, 7>;
 
 Look look_of(const BoardView& view, int width_px, int height_px) {
@@ -144,8 +145,8 @@ void leave_out_blurred(CollectedViews& views) {
 /// Looks for the board in the sharpest frame of each stretch.
 class BoardSearch {
  public:
-  BoardSearch(CalibrationBoard& board, const CameraModel& lens, std::int64_t stretch, CollectedViews& views)
-      : board_(board), lens_(lens), stretch_(stretch), views_(views) {}
+  BoardSearch(CalibrationBoard& board, const CameraModel& camera, std::int64_t stretch, CollectedViews& views)
+      : board_(board), camera_(camera), stretch_(stretch), views_(views) {}
 
   void offer(Frame frame) {
     const double sharp = stretch_ > 1 ? sharpness(frame.luma()) : 0;
@@ -165,7 +166,7 @@ class BoardSearch {
   void try_sharpest() {
     ++views_.frames_tried;
     const Frame frame = *std::exchange(sharpest_, std::nullopt);
-    auto view = board_.find(frame.luma(), lens_);
+    auto view = board_.find(frame.luma(), camera_);
     if (!view) return;
     ++views_.frames_with_board;
     view->frame = frame.number();
@@ -173,7 +174,7 @@ class BoardSearch {
   }
 
   CalibrationBoard& board_;
-  CameraModel lens_;
+  CameraModel camera_;
   std::int64_t stretch_;
   CollectedViews& views_;
   ViewPool pool_;

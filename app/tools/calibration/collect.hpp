@@ -12,7 +12,7 @@
 
 namespace catchlight::app {
 
-/// A view with its frame, so that it can be measured again with a better lens.
+/// A view with its frame, so that it can be measured again with a better camera model.
 struct SeenBoard {
   BoardView view;
   Frame frame;

@@ -15,7 +15,7 @@ constexpr std::size_t kGoodViews = 10;
 constexpr double kGoodFocal = 0.01, kGoodCenter = 0.01;  ///< standard deviation over focal length and picture width
 constexpr double kLargeRmsPx = 1;
 constexpr double kUnusualAspect = 0.02;
-constexpr double kHardlyAny = 0.01;  ///< of all corners
+constexpr double kHardlyAny = 0.01;  ///< share of all corners
 
 std::string padded(const std::string& text, std::size_t width) {
   return text.size() < width ? std::string(width - text.size(), ' ') + text : text;
@@ -31,7 +31,7 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-/// Of nine parts of the picture, those where hardly any used corner lies.
+/// Those of nine parts of the picture where hardly any used corner lies.
 std::vector<std::string> empty_parts(const Calibration& calibration) {
   constexpr std::array kParts{"upper left", "top",        "upper right", "left",       "middle",
                               "right",      "lower left", "bottom",      "lower right"};

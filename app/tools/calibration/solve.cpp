@@ -57,7 +57,7 @@ int flags_of(LensModel model) {
   return flags;
 }
 
-/// From the solution of a smaller model, where there is one. Empty where OpenCV finds none.
+/// The solution that starts from that of a smaller model, where there is one. Empty where OpenCV finds none.
 std::optional<Fit> fit(const Points& points, const cv::Size& size, LensModel model, const Fit* start) {
   Fit result;
   result.model = model;

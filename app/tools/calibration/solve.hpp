@@ -26,7 +26,7 @@ int coefficient_count(LensModel model);
 struct ViewFit {
   BoardView view;
   std::vector<glm::dvec2> residuals_px;  ///< seen minus projected
-  double rms_px = 0;                     ///< of the residuals' lengths
+  double rms_px = 0;                     ///< rms of the residuals' lengths
   double tilt_deg = 0;                   ///< between the board's normal and the camera's axis
 };
 

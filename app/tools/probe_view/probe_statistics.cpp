@@ -8,7 +8,7 @@
 namespace catchlight::app {
 namespace {
 
-constexpr int kSamplesAcross = 4;  ///< of a preview's pixel
+constexpr int kSamplesAcross = 4;  ///< samples along a side of a preview's pixel
 
 double luminance(const float* rgb) {
   return glm::dot(kLuminanceWeights, glm::dvec3(rgb[0], rgb[1], rgb[2]));

@@ -9,9 +9,9 @@
 namespace catchlight::app {
 
 struct PoseComparison {
-  int frames = 0;                               ///< whose known pose has all four corners in the picture
-  int tracked = 0;                              ///< of them, with a pose of ours
-  int false_positives = 0;                      ///< found where no corner is in the picture
+  int frames = 0;                               ///< frames whose known pose has all four corners in the picture
+  int tracked = 0;                              ///< those of them with a pose of ours
+  int false_positives = 0;                      ///< frames with a pose of ours though no corner is in the picture
   double corner_rms_px = 0, corner_p95_px = 0;  ///< distance of the tag's projected corners
   double translation_median_mm = 0;
   double rotation_median_deg = 0, rotation_max_deg = 0;

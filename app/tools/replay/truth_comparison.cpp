@@ -11,7 +11,7 @@ namespace catchlight::app {
 
 namespace {
 
-constexpr double kObjectChanges = 4.0;  // of 255, after a 9 x 9 box
+constexpr double kObjectChanges = 4.0;  // 8-bit codes, after a 9 x 9 box
 constexpr int kMinPixels = 20;
 
 cv::Mat boxed(const cv::Mat& image, int size) {
@@ -27,7 +27,7 @@ cv::Mat largest_channel(const cv::Mat& image) {
   return cv::max(cv::max(channels[0], channels[1]), channels[2]);
 }
 
-/// Per pixel, the largest difference over the channels. 32-bit float.
+/// The largest difference over the channels, pixel by pixel. 32-bit float.
 cv::Mat largest_difference(const cv::Mat& a, const cv::Mat& b) {
   cv::Mat difference;
   cv::absdiff(a, b, difference);

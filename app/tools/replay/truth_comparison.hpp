@@ -8,9 +8,9 @@ namespace catchlight::app {
 
 /// Display-coded errors in units of 1/255, over one region of one frame.
 struct PictureError {
-  double mean = 0;     ///< of the largest channel difference, after a small box that takes noise out
+  double mean = 0;     ///< mean of the largest channel difference, after a small box that takes noise out
   double p95 = 0;      ///< 95th percentile of the same
-  double psnr_db = 0;  ///< of the raw difference, all channels
+  double psnr_db = 0;  ///< PSNR of the raw difference, all channels
   double ssim = 0;     ///< mean of the structural similarity map (Wang 2004) over the region
   int pixels = 0;
 };

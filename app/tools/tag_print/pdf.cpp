@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kPointsPerMm = 72 / 25.4;
 
-/// To 10 nm.
+/// A length as text, to 10 nm.
 std::string fixed(double value) {
   return fixed_text(value, 5);
 }

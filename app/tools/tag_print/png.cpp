@@ -37,7 +37,7 @@ std::string phys_chunk(int pixels_per_m) {
 
 void draw_text(cv::Mat1b& image, const TextMm& text, double pixels_per_mm) {
   const double height_px = kTextHeightMm * pixels_per_mm;
-  const double capital_height = 0.72;  // of Helvetica's size; Hershey's capitals are 21 px at scale 1
+  const double capital_height = 0.72;  // share of Helvetica's size; Hershey's capitals are 21 px at scale 1
   const double scale = capital_height * height_px / 21;
   const int thickness = std::max(1, static_cast<int>(std::lround(height_px / 12)));
   const cv::Point origin(static_cast<int>(std::lround(text.x * pixels_per_mm)),

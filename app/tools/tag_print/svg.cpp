@@ -4,7 +4,7 @@
 namespace catchlight::app {
 namespace {
 
-/// To 10 nm.
+/// A length as text, to 10 nm.
 std::string fixed(double value) {
   return fixed_text(value, 5);
 }

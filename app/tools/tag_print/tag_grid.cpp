@@ -9,8 +9,8 @@
 namespace catchlight::app {
 namespace {
 
-constexpr int kMaxAcross = 100;  ///< of a board's columns and rows
-constexpr double kSmallest_m = 1e-4, kLargest_m = 100;
+constexpr int kMaxAcross = 100;  ///< a board's columns, and its rows
+constexpr double kMinLength_m = 1e-4, kMaxLength_m = 100;
 
 }  // namespace
 
@@ -40,9 +40,9 @@ glm::ivec2 columns_and_rows(const std::string& text, const std::string& option) 
 }
 
 void check_length(double length_m, const std::string& option) {
-  if (length_m >= kSmallest_m && length_m <= kLargest_m) return;
-  throw UsageError(option + " is " + number_text(length_m) + "; expected metres, from " + number_text(kSmallest_m) + " to " +
-                   number_text(kLargest_m));
+  if (length_m >= kMinLength_m && length_m <= kMaxLength_m) return;
+  throw UsageError(option + " is " + number_text(length_m) + "; expected metres, from " + number_text(kMinLength_m) + " to " +
+                   number_text(kMaxLength_m));
 }
 
 void check_tag_grid(const TagGrid& grid) {

@@ -32,7 +32,7 @@ CameraModel barrel_camera() {
   return {640, 480, 520, 524, 331.2, 236.7, {-0.3, 0.12, 0.0015, -0.001}};
 }
 
-/// Where the middle of the board is seen, how far it is, and its turns about the camera's axes.
+/// A pose of the board: where its middle is seen, how far it is, and its turns about the camera's axes.
 struct Placement {
   glm::dvec2 middle_px;
   double distance_m;

@@ -130,7 +130,7 @@ class ExposureCommand : public ::testing::Test {
     return pixels;
   }
 
-  /// Of linear light, channel by channel (red first), over the object's pixels that stay unclipped: `name` over `reference`.
+  /// The ratio of linear light, `name` over `reference`, channel by channel (red first), over the object's unclipped pixels.
   glm::dvec3 brightening(const std::string& name, const std::string& reference, int frame) const {
     const cv::Mat after = cv::imread(file(name, frame)), before = cv::imread(file(reference, frame));
     glm::dvec3 bright(0), dark(0);

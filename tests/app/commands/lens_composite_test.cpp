@@ -41,7 +41,7 @@ distortion_coefficients: !!opencv-matrix
    data: [ 0., 0., 0., 0., 0. ]
 )";
 
-/// In light of 1 from everywhere: white paper of 0.8 is footage of 0.6.
+/// A scene in light of 1 from everywhere: white paper of 0.8 is footage of 0.6.
 constexpr const char* kScene = R"(
 [tag]
 family = "tag36h11"
@@ -134,7 +134,7 @@ cv::Mat3d linear(const cv::Mat3b& codes) {
 
 /// Sums over tiles of 8 x 8 pixels, each less its mean.
 struct Grain {
-  cv::Vec4d squares;  ///< of blue, green, red and luma
+  cv::Vec4d squares;  ///< sums of squares of blue, green, red and luma
   double light = 0, neighbours = 0;
 
   void add(const cv::Mat3d& tile) {
@@ -228,7 +228,7 @@ class LensOnTheResult : public ::testing::Test {
     for (std::size_t i = 0; i < shifts_.size(); ++i) result_.push_back(linear(cv::imread(file("out", i))));
   }
 
-  /// Of tiles around a point of the tag's plane.
+  /// The grain of tiles around a point of the tag's plane.
   Grain grain(const glm::dvec2& middle_m, const cv::Size& tiles) const {
     Grain grain;
     for (std::size_t i = 0; i < result_.size(); ++i) {
@@ -240,7 +240,7 @@ class LensOnTheResult : public ::testing::Test {
     return grain;
   }
 
-  /// Of an upright side of tag or slab, over the frames from `first` on.
+  /// The width of an upright side of tag or slab, over the frames from `first` on.
   double width_px(double x_m, std::size_t first = 0) const {
     const std::vector<cv::Mat3d> frames(result_.begin() + static_cast<std::ptrdiff_t>(first), result_.end());
     const auto edge = [&](std::size_t i) {

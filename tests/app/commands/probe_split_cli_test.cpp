@@ -73,7 +73,7 @@ TEST(ProbeSplit, PrintsTheLightsBrightestFirst) {
   EXPECT_EQ(result.exit_code, 0) << result.error;
   EXPECT_EQ(result.error, "");
   EXPECT_THAT(result.output, HasSubstr("lights               2\n"));
-  // Of 32 rows from 90 to -90 degrees 6 and 7 lie at 55.16 and 49.35, the lower one wider; of 64 columns from 180 to -180 degrees
+  // Rows 6 and 7 of 32 from 90 to -90 degrees lie at 55.16 and 49.35, the lower one wider; of 64 columns from 180 to -180 degrees
   // 12 and 13 have their middle at 108.6, 44 and 45 at -74.29.
   EXPECT_THAT(result.output, HasSubstr("latitude 52.1"));
   EXPECT_THAT(result.output, HasSubstr("longitude 108.6"));

@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 
 class ReferenceCommand : public ::testing::Test {
  protected:
-  /// On the shipped recording at its known poses: frame 0, a path a pixel.
+  /// Runs `reference` on the shipped recording at its known poses: frame 0, a light path a pixel.
   CommandResult reference(std::vector<std::string> more, const std::string& recording = kMatte) {
     std::vector<std::string> arguments = {"reference", recording, "--samples", "1", "--bounces", "1"};
     arguments.insert(arguments.end(), more.begin(), more.end());

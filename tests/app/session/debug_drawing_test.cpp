@@ -97,7 +97,7 @@ std::vector<cv::Point2d> opencv_px(const CameraModel& camera, const RigidTransfo
 const std::vector<cv::Point3d> kCorners_m{
     {-kTag_m / 2, -kTag_m / 2, 0}, {kTag_m / 2, -kTag_m / 2, 0}, {kTag_m / 2, kTag_m / 2, 0}, {-kTag_m / 2, kTag_m / 2, 0}};
 
-/// Around all that is not as gray_frame() was.
+/// The rectangle around all that is not as gray_frame() was.
 cv::Rect drawn_bounds(const cv::Mat& picture) {
   cv::Mat difference, sum;
   cv::absdiff(picture, cv::Scalar::all(90), difference);
@@ -135,7 +135,7 @@ double magenta_pixels(const cv::Mat& picture) {
   return sum;
 }
 
-/// By how much the strongest of the 3 x 3 pixels there has this channel above both others.
+/// The codes by which the strongest of the 3 x 3 pixels there has this channel above both others.
 int dominance(const cv::Mat& picture, const cv::Point2d& px, int channel) {
   int best = -255;
   for (int dy = -1; dy <= 1; ++dy)

@@ -185,7 +185,7 @@ std::vector<TrackRow> swinging(int frames) {
   return rows;
 }
 
-/// With the blur that focus and shutter make, and errors of that size.
+/// The rows with the blur that focus and shutter make, and errors of that size.
 std::vector<TrackRow> blurred(std::vector<TrackRow> rows, double focus_px2, double shutter, double error_px2) {
   std::vector<TrackRow> measured = rows;
   measure_blur(measured, camera(), 0.08);

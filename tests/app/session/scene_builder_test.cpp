@@ -58,7 +58,7 @@ class SceneBuild : public ::testing::Test {
         set_parameter_from_text(scene_, parameter.key, tests::other_value(parameter));
   }
 
-  /// By a builder that has made nothing before.
+  /// Builds the scene by a builder that has made nothing before.
   BuiltScene build() {
     return SceneBuilder().build(scene_, ignore, [](double) {});
   }

@@ -65,7 +65,7 @@ class SessionTest : public ::testing::Test {
     return job.result;
   }
 
-  /// As the commands draw it: by a session of its own.
+  /// The frame as the commands draw it: by a session of its own.
   Composite drawn_afresh(Recording recording) {
     Session session(std::move(recording), one_frame(), log_);
     return drawn(session);

@@ -29,7 +29,8 @@ glm::dvec2 project(const CameraModel& camera, const glm::dvec3& p) {
           camera.cy_px + camera.fy_px * (y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y)};
 }
 
-/// Where the board's middle is and how it is tilted about the camera's x and y axes and turned about the line of sight.
+/// A pose of the board: where its middle is and how it is tilted about the camera's x and y axes and turned about the line of
+/// sight.
 struct Placement {
   glm::dvec3 middle_m;
   glm::dvec3 turn_deg;

@@ -110,7 +110,7 @@ cv::Rect2d bounds(const std::vector<cv::Rect2d>& shape) {
   return all;
 }
 
-/// At 10 pixels/mm; enough for cells of whole millimetres and tenths.
+/// The page at 10 pixels/mm; enough for cells of whole millimetres and tenths.
 cv::Mat1b drawn(const PdfPage& page) {
   cv::Mat1b picture(cvRound(page.height_mm * 10), cvRound(page.width_mm * 10), std::uint8_t{255});
   for (const auto& shape : page.shapes)

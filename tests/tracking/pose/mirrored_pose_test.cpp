@@ -57,11 +57,11 @@ TEST(Mirrored, SaysHowFarTheCornersAreOff) {
   const RigidTransform pose = in_the_middle(0.8, {0, 30, 0});
   const auto other = mirrored(plain_camera(), kSquare, pose);
   ASSERT_TRUE(other);
-  SyntheticTag truth, twin;
+  SyntheticTag truth, mirror;
   truth.camera_from_tag = pose;
-  twin.camera_from_tag = other->camera_from_tag;
-  truth.target.size_m = twin.target.size_m = kSquare.size_m;
-  const double apart_px = rms_distance(true_corners_px(plain_camera(), truth), true_corners_px(plain_camera(), twin));
+  mirror.camera_from_tag = other->camera_from_tag;
+  truth.target.size_m = mirror.target.size_m = kSquare.size_m;
+  const double apart_px = rms_distance(true_corners_px(plain_camera(), truth), true_corners_px(plain_camera(), mirror));
   EXPECT_GT(apart_px, 0.1);
   EXPECT_NEAR(other->reprojection_rms_px, apart_px, 1e-6);
 }

@@ -30,7 +30,7 @@ RefinedCorners refine(const SyntheticScene& scene, const SyntheticFrame& frame, 
   return refine_corners(frame.luma(), scene.camera, from, tag_layout(target.family, target.id));
 }
 
-/// As far off as detectors are: 0.3 px inside, and some noise.
+/// The quad as far off as detectors are: 0.3 px inside, and some noise.
 Quad disturbed(const Quad& quad) {
   const glm::dvec2 center = (quad[0] + quad[1] + quad[2] + quad[3]) / 4.0;
   const glm::dvec2 noise[] = {{0.1, -0.05}, {-0.08, -0.12}, {0.02, 0.1}, {-0.1, 0.06}};

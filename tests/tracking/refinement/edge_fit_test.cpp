@@ -15,7 +15,7 @@ struct TrueEdge {
   double shift_start_px = 0.31, shift_end_px = -0.22;
   double blur_px = 0.7;
   double minus = 0.03, plus = 0.6;
-  double minus_change = 0, plus_change = 0;  ///< of the plateaus along the edge
+  double minus_change = 0, plus_change = 0;  ///< change of the plateaus along the edge
   double plus_slope = 0;                     ///< shading of the bright side, per pixel
   double noise = 0;
 };

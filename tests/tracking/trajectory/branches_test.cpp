@@ -24,7 +24,7 @@ std::vector<std::size_t> candidates_of(const std::vector<Branch>& branches) {
   return candidates;
 }
 
-/// At 30 frames a second; `tilt_deg` and `favour` of the frame's number.
+/// Frames at 30 a second; `tilt_deg` and `favour` are functions of the frame's number.
 template <class Tilt, class Favour>
 std::vector<TrajectoryFrame> trajectory(int frames, Tilt&& tilt_deg, Favour&& favour) {
   std::vector<TrajectoryFrame> result;

@@ -37,7 +37,7 @@ struct Rms {
   double turn_rad = 0, shift_m = 0;
 };
 
-/// Over the frames of [begin, end); `pose_of(i)` is compared with the truth at frame i.
+/// The error over the frames of [begin, end); `pose_of(i)` is compared with the truth at frame i.
 template <class Truth, class Poses>
 Rms rms_error(int begin, int end, Truth&& truth, Poses&& pose_of) {
   Rms sum;
@@ -236,7 +236,7 @@ RigidTransform stumbling(double time_s) {
 struct Trajectory {
   const char* name;
   RigidTransform (*truth)(double);
-  double most;  ///< of the raw error
+  double most;  ///< largest share of the raw error that may be left
 };
 
 class TrajectorySmoothingOf : public ::testing::TestWithParam<Trajectory> {};

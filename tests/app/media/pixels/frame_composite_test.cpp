@@ -41,7 +41,7 @@ bool is_changed(const Composite& composite, int x, int y) {
 
 class EveryFormat : public ::testing::TestWithParam<AVPixelFormat> {};
 
-// FFmpeg's own reader of single components is the witness: it shares nothing with the writer.
+// The check is FFmpeg's own reader of single components, which shares nothing with the writer.
 std::vector<std::uint16_t> component_line(const AVFrame& picture, int component, int y, int samples) {
   const AVPixFmtDescriptor* format = av_pix_fmt_desc_get(static_cast<AVPixelFormat>(picture.format));
   std::vector<std::uint16_t> line(static_cast<std::size_t>(samples));

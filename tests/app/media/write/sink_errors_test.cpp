@@ -24,7 +24,8 @@ class SinkErrors : public MediaTest {
            "'");
   }
 
-  // In a process whose files may not grow beyond `limit_bytes`; the message of the error, empty where none was thrown.
+  // Passes through in a process whose files may not grow beyond `limit_bytes`; returns the error's message, or
+  // nothing.
   std::string message_with_full_disk(const std::string& output, rlim_t limit_bytes) {
     int pipe_ends[2];
     if (pipe(pipe_ends) != 0) return "no pipe";
