@@ -13,10 +13,10 @@
 #include "render/gl/shader_library.hpp"
 #include "render/mesh/bounds.hpp"
 #include "render/mesh/mesh.hpp"
+#include "render/passes/camera_blur_pass.hpp"
 #include "render/passes/composite_pass.hpp"
 #include "render/passes/glare/aperture_glare_pass.hpp"
 #include "render/passes/glare/glare_pass.hpp"
-#include "render/passes/lens_blur_pass.hpp"
 #include "render/passes/light_transfer.hpp"
 #include "render/passes/object_layers.hpp"
 #include "render/passes/object_pass.hpp"
@@ -78,7 +78,7 @@ struct Compositor::Impl {
   ShadowedLights lights;
   ObjectPass object;
   std::unique_ptr<ReceiverPass> receiver;
-  LensBlur lens_blur;
+  CameraBlur camera_blur;
   GlarePass glare;
   std::unique_ptr<ApertureGlarePass> aperture_glare;  ///< in its place where settings.glare.method is fft
   CompositePass composite;
@@ -87,7 +87,7 @@ struct Compositor::Impl {
   std::optional<glm::dmat3> lit_from;  ///< the light's turn that the points are lit for
   std::unique_ptr<ObjectTarget> object_target;
   std::unique_ptr<ColorTarget<1>> shadow_target;
-  const GlTexture *object_seen = nullptr, *shadow_seen = nullptr;  ///< as the lens shows them
+  const GlTexture *object_seen = nullptr, *shadow_seen = nullptr;  ///< as the camera's blur leaves them
   std::vector<PassTime> times;
 };
 
@@ -101,7 +101,7 @@ Compositor::Impl::Impl(const RenderScene& scene, const CompositorSettings& wante
       lights(static_cast<int>(scene.lights.size()), bounds, shaders),
       object(scene.mesh, LitPoints("object", scene.transfer.object, scene.transfer.object_direct, sh_count(scene.transfer.bands)),
              scene.reflections, scene.rest_reflections, shaders),
-      lens_blur(shaders),
+      camera_blur(shaders),
       glare(wanted.glare, shaders),
       composite(shaders) {
   settings.samples = supported_samples(wanted.samples);
@@ -198,15 +198,15 @@ PixelRect Compositor::Impl::spread_glare(const CameraModel& camera) {
   return aperture_glare ? aperture_glare->spread(camera) : glare.spread();
 }
 
-/// Object and shadow as the lens shows them, and whether they have highlights that glare.
+/// Draws object and shadow, blurs them as the camera does, and looks for highlights that glare.
 void Compositor::Impl::draw_virtual_layer(const FramePlan& plan, Composite& result) {
   make_targets(plan);
   pass("object", [&] { draw_object(plan); });
   pass("receiver", [&] { draw_receiver(plan); });
   object_seen = &object_target->color(), shadow_seen = &shadow_target->texture();
   if (!plan.blur.empty()) {
-    pass("lens blur", [&] { lens_blur.apply(plan.blur, *object_seen, *shadow_seen, plan.virtual_rect); });
-    object_seen = &lens_blur.object(), shadow_seen = &lens_blur.shadow();
+    pass("lens blur", [&] { camera_blur.apply(plan.blur, *object_seen, *shadow_seen, plan.virtual_rect); });
+    object_seen = &camera_blur.object(), shadow_seen = &camera_blur.shadow();
   }
   if (plan.seeks_glare) pass("highlights", [&] { result.glare_drawn = find_highlights(plan); });
 }

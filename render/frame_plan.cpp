@@ -40,7 +40,7 @@ FramePlan plan_frame(const FrameView& view, const SceneNeeds& scene, bool want_l
   plan.draws_receiver = scene.shadow_reach.has_value() && sees_front_of_receiver(view);
   const PixelRect sharp = sharp_rect(view, scene, plan);
   if (sharp.empty()) return plan;
-  plan.blur = plan_lens_blur(view, plan.distortion_limit, scene.object);
+  plan.blur = plan_camera_blur(view, plan.distortion_limit, scene.object);
   plan.virtual_rect = intersect(grown(sharp, plan.blur.reach_px(sharp)), plan.frame);
   plan.mirrors_receiver = plan.draws_receiver && scene.mirrors;
   plan.seeks_glare = scene.has_glare;

@@ -5,7 +5,7 @@
 
 #include "catchlight/pixel_rect.hpp"
 #include "catchlight/projection.hpp"
-#include "render/camera/lens_blur.hpp"
+#include "render/camera/camera_blur.hpp"
 #include "render/frame_view.hpp"
 #include "render/mesh/bounds.hpp"
 #include "render/transfer/plane_rect.hpp"
@@ -27,7 +27,7 @@ struct SceneNeeds {
 struct FramePlan {
   PixelRect frame;         ///< all of its pixels
   PixelRect virtual_rect;  ///< pixels that the object, its shadow and their blur may touch; empty: nothing virtual is drawn
-  LensBlurPlan blur;
+  CameraBlurPlan blur;
   DistortionLimit distortion_limit{};  ///< of the view's camera
   double passed_at_tag = 0;            ///< share of light that vignetting leaves at the tag; 0: the tag is not in front
   bool draws_receiver = false;         ///< the camera is in front of the receiver

@@ -8,7 +8,7 @@
 #include "catchlight/plate.hpp"
 #include "catchlight/rigid_transform.hpp"
 #include "catchlight/tone_curve.hpp"
-#include "render/lens_view.hpp"
+#include "render/camera_effects.hpp"
 
 namespace catchlight::render {
 
@@ -25,7 +25,7 @@ struct FrameView {
   glm::dmat3 tag_from_light{1.0};  ///< turns the light against the tag (probe fixed to the camera)
   bool has_pose = true;            ///< false: nothing virtual is drawn; the tone curve, where there is one, is
   std::optional<ToneCurve> tone;   ///< what the exposure has adapted to; none: what the frame itself calls for
-  LensView lens;                   ///< what the camera does to the virtual layer besides
+  CameraEffects effects;           ///< what else the camera does to the virtual layer
 };
 
 }  // namespace catchlight::render

@@ -3,7 +3,7 @@
 #include "interface.h"
 #include "bspline.glsl"
 #include "color.glsl"
-#include "lens_noise.glsl"
+#include "sensor_noise.glsl"
 
 layout(binding = TEXTURE_OBJECT) uniform sampler2D object;    // premultiplied exposed linear
 layout(binding = TEXTURE_SHADOW) uniform sampler2D shadow;    // ratio

@@ -21,7 +21,7 @@ using glm::vec4;
 #define GLARE_MARGIN 4  // texels around the glare grid and its halvings
 #define GLARE_TILE 2    // texels of the grid along a tile that is drawn or left out as a whole
 #define MAX_GLARE_BLUR_TAPS 16
-#define LENS_BLUR_TAPS 96
+#define DEFOCUS_TAPS 96
 
 // Uniform blocks
 #define BINDING_VIEW 0

@@ -158,20 +158,20 @@ double shutter_share(const SceneSettings::Lens& settings, const BlurModel& blur)
   return blur.shutter > 0 || settings.motion_blur == Switch::automatic ? blur.shutter : kFilmShutter;
 }
 
-render::LensView lens_view(const SceneSettings::Lens& settings, const TrackRow& row, const Frame& frame) {
-  render::LensView lens;
+render::CameraEffects camera_effects(const SceneSettings::Lens& settings, const TrackRow& row, const Frame& frame) {
+  render::CameraEffects effects;
   if (adds_noise(settings.noise, row.noise, frame.color())) {
-    lens.noise.enabled = true;
-    lens.noise.slope = row.noise.slope;
-    lens.noise.floor = row.noise.floor;
-    lens.noise.mix = noise_mix(row.noise);
-    lens.noise.block_shift = frame.color_block_shift();
-    lens.noise.frame = static_cast<std::uint32_t>(row.frame);
+    effects.noise.enabled = true;
+    effects.noise.slope = row.noise.slope;
+    effects.noise.floor = row.noise.floor;
+    effects.noise.mix = noise_mix(row.noise);
+    effects.noise.block_shift = frame.color_block_shift();
+    effects.noise.frame = static_cast<std::uint32_t>(row.frame);
   }
-  lens.defocus_px2 = defocus_px2(settings.defocus, row.blur);
+  effects.defocus_px2 = defocus_px2(settings.defocus, row.blur);
   const double shutter = shutter_share(settings, row.blur);
-  lens.motion = {row.blur.motion.turn_rad * shutter, row.blur.motion.shift_m * shutter};
-  return lens;
+  effects.motion = {row.blur.motion.turn_rad * shutter, row.blur.motion.shift_m * shutter};
+  return effects;
 }
 
 std::vector<PlanEntry> lens_plan(const SceneSettings::Lens& settings, const std::vector<TrackRow>& rows, const Frame& frame,
@@ -195,7 +195,7 @@ render::FrameView frame_view(const Frame& frame, const TrackRow& row, const Came
   view.black = exposure.black;
   if (row.has_exposure) view.receiver_light = row.exposure * scene.receiver.albedo + row.black;
   view.tag_from_light = built.orientation.tag_from_light(row.camera_from_tag.rotation);
-  view.lens = lens_view(scene.lens, row, frame);
+  view.effects = camera_effects(scene.lens, row, frame);
   return view;
 }
 

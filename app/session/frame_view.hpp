@@ -8,8 +8,8 @@
 #include "catchlight/camera.hpp"
 #include "catchlight/plate.hpp"
 #include "catchlight/track.hpp"
+#include "render/camera_effects.hpp"
 #include "render/frame_view.hpp"
-#include "render/lens_view.hpp"
 
 namespace catchlight::app {
 
@@ -32,7 +32,7 @@ LayerExposure layer_exposure(const SceneSettings::Exposure& settings, const Trac
 double noise_codes(const NoiseModel& noise, const PlateColor& response, double light);
 
 /// Splits noise of these variances and correlations into what pixels of one colour sample share and what each has alone
-/// (render::LensNoise::mix): colour, which is RGB less luma, is the block's; luma is the pixel's, but follows colour as far as
+/// (render::SensorNoise::mix): colour, which is RGB less luma, is the block's; luma is the pixel's, but follows colour as far as
 /// the two are correlated. Every channel's variance is 1; correlations are kept within 0.01.
 glm::dmat3 noise_mix(const NoiseModel& noise);
 
@@ -43,7 +43,7 @@ double defocus_px2(Switch wanted, const BlurModel& blur);
 double shutter_share(const SceneSettings::Lens& settings, const BlurModel& blur);
 
 /// What the camera does to the virtual layer in one frame.
-render::LensView lens_view(const SceneSettings::Lens& settings, const TrackRow& row, const Frame& frame);
+render::CameraEffects camera_effects(const SceneSettings::Lens& settings, const TrackRow& row, const Frame& frame);
 
 /// The plan's entries for these effects: which are on, by what figure, and why.
 std::vector<PlanEntry> lens_plan(const SceneSettings::Lens& settings, const std::vector<TrackRow>& rows, const Frame& frame,

@@ -117,7 +117,7 @@ void CompositePass::update_uniforms(const FrameView& view, const VirtualLayer& l
   const Vignetting vignetting = vignetting_of(view.camera, layer.passed_at_tag);
   block.vignetting = vignetting.terms;
   block.vignetting_at = vignetting.at;
-  const LensNoise& noise = view.lens.noise;
+  const SensorNoise& noise = view.effects.noise;
   block.noise = {noise.enabled ? 1 : 0, static_cast<int>(noise.frame), noise.block_shift.x, noise.block_shift.y};
   block.noise_slope = glm::vec4(noise.slope, 0);
   block.noise_floor = glm::vec4(noise.floor, 0);

@@ -11,10 +11,10 @@ namespace catchlight::render {
 
 /// What is kept at vertices is interpolated over their triangles: one that lies within another part would darken what sticks out
 /// of it. So it takes the mean of its open neighbours; without any, its triangles cannot be seen and it stays as it is.
-class BuriedVertices {
+class InteriorVertices {
  public:
-  /// `buried`: nonzero for such vertices.
-  BuriedVertices(const Mesh& mesh, const std::vector<char>& buried);
+  /// `is_interior`: a value a vertex, nonzero where the vertex lies within another part.
+  InteriorVertices(const Mesh& mesh, const std::vector<char>& is_interior);
 
   /// `values`: the same number a vertex.
   void fill(std::span<glm::vec3> values) const;
@@ -25,7 +25,7 @@ class BuriedVertices {
     std::vector<std::uint32_t> open_neighbours;
   };
   std::size_t vertices_;
-  std::vector<Vertex> buried_;
+  std::vector<Vertex> interior_;
 };
 
 }  // namespace catchlight::render

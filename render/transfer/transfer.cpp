@@ -74,14 +74,14 @@ class Baker {
     unshadowed_lobe(glm::vec3(0, 0, 1), options_.bands, transfer.receiver_unshadowed);
     receiver_sends_back_ = options_.bounces > 0 && grid.points() > 0 && options_.receiver_albedo.known();
     transfer.object_direct.resize(vertices * count_);
-    std::vector<char> is_buried(vertices);
-    for_points(vertices, [&](std::size_t v) { is_buried[v] = bake_direct(v, coefficients(transfer.object_direct, v)); });
-    const BuriedVertices buried(mesh_, is_buried);
-    buried.fill(transfer.object_direct);
+    std::vector<char> is_interior(vertices);
+    for_points(vertices, [&](std::size_t v) { is_interior[v] = bake_direct(v, coefficients(transfer.object_direct, v)); });
+    const InteriorVertices interior(mesh_, is_interior);
+    interior.fill(transfer.object_direct);
     const std::vector<char> covered = bake_receiver_direct(transfer);
     transfer.object = transfer.object_direct;
     transfer.receiver = transfer.receiver_direct;
-    bake_bounces(transfer, buried, covered);
+    bake_bounces(transfer, interior, covered);
     if (progress_) progress_(1.0);  // light may have died away before the last bounce
     return transfer;
   }
@@ -146,7 +146,7 @@ class Baker {
 
   // Light on its way over one more surface each time, until it stops mattering. What came last is passed on alone, so that fewer
   // rays do for it the less it is.
-  void bake_bounces(Transfer& transfer, const BuriedVertices& buried, const std::vector<char>& covered) {
+  void bake_bounces(Transfer& transfer, const InteriorVertices& interior, const std::vector<char>& covered) {
     const std::size_t vertices = mesh_.vertices.size();
     std::vector<glm::vec3> last = transfer.object_direct, sent_up = sent_up_by(transfer.receiver_direct, transfer.grid);
     for (int bounce = 0; bounce < options_.bounces && largest(last) > kMinBounce * largest(transfer.object); ++bounce) {
@@ -155,7 +155,7 @@ class Baker {
       for_points(vertices, [&](std::size_t v) { gather(v, rays, last, transfer, sent_up, bounce == 0, coefficients(next, v)); });
       for_points(transfer.grid.points(),
                  [&](std::size_t p) { gather_on_receiver(p, rays, last, transfer.grid, coefficients(on_receiver, p)); });
-      buried.fill(next);
+      interior.fill(next);
       finish_receiver(transfer.grid, covered, std::vector(count_, glm::vec3(0)), on_receiver);
       add(next, transfer.object);
       add(on_receiver, transfer.receiver);

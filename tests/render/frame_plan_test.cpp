@@ -97,12 +97,12 @@ TEST(FramePlan, LayersAreWholeFramesOfLightThatNoToneCurveChanges) {
 TEST(FramePlan, BlurWidensWhatIsDrawnWithinTheFrame) {
   FrameView view = view_from_above();
   const PixelRect sharp = plan_frame(view, mirroring_box(), false).virtual_rect;
-  view.lens.defocus_px2 = 4;
+  view.effects.defocus_px2 = 4;
   const FramePlan plan = plan_frame(view, mirroring_box(), false);
   EXPECT_FALSE(plan.blur.empty());
   const int reach = plan.blur.reach_px(sharp);
   EXPECT_EQ(plan.virtual_rect, (PixelRect{sharp.x - reach, sharp.y - reach, sharp.width + 2 * reach, sharp.height + 2 * reach}));
-  view.lens.defocus_px2 = kMaxDefocus_px2;
+  view.effects.defocus_px2 = kMaxDefocus_px2;
   EXPECT_TRUE(holds(plan.frame, plan_frame(view, mirroring_box(), false).virtual_rect));
 }
 

@@ -90,9 +90,9 @@ TEST(GrainMeter, RoundingAloneIsNoNoise) {
   TrackRow row;
   row.noise = model;
   const Frame frame = noisy_frame(scene(), glm::dvec3(0), 0, 1);
-  EXPECT_FALSE(lens_view(lens, row, frame).noise.enabled);
+  EXPECT_FALSE(camera_effects(lens, row, frame).noise.enabled);
   row.noise.slope = glm::dvec3(3e-4);
-  EXPECT_TRUE(lens_view(lens, row, frame).noise.enabled);
+  EXPECT_TRUE(camera_effects(lens, row, frame).noise.enabled);
 }
 
 TEST(GrainMeter, SmallTagsSayNothing) {
@@ -273,7 +273,7 @@ TEST(Blur, ARenderedShutterIsMeasuredWithinATenth) {
   EXPECT_NEAR(rows[8].blur.focus_px2 / (0.36 + 1.0 / 12), 1, 0.1);
 }
 
-TEST(LensView, EverythingCanBeSwitchedOffAlone) {
+TEST(CameraEffects, EverythingCanBeSwitchedOffAlone) {
   TrackRow row;
   row.noise = {glm::dvec3(3e-4), glm::dvec3(0), glm::dvec3(0)};
   row.blur = {{{0.01, 0, 0}, {0.02, 0, 0}}, 0.5, 1.0};
@@ -281,7 +281,7 @@ TEST(LensView, EverythingCanBeSwitchedOffAlone) {
   CameraModel camera;
   camera.vignetting = {-0.2, 0, 0};
   camera.distortion[0] = -0.3;
-  const render::LensView all = lens_view({}, row, frame);
+  const render::CameraEffects all = camera_effects({}, row, frame);
   EXPECT_TRUE(all.noise.enabled);
   EXPECT_NEAR(all.defocus_px2, 1 - 1.0 / 12, 1e-12);
   EXPECT_EQ(all.motion.shift_m.x, 0.01);
@@ -289,24 +289,24 @@ TEST(LensView, EverythingCanBeSwitchedOffAlone) {
   EXPECT_EQ(SceneSettings::Lens{}.as_drawn(camera).distortion, camera.distortion);
   SceneSettings::Lens lens;
   lens.noise = Switch::off;
-  EXPECT_FALSE(lens_view(lens, row, frame).noise.enabled);
-  EXPECT_GT(lens_view(lens, row, frame).defocus_px2, 0);
+  EXPECT_FALSE(camera_effects(lens, row, frame).noise.enabled);
+  EXPECT_GT(camera_effects(lens, row, frame).defocus_px2, 0);
   lens = {}, lens.defocus = Switch::off;
-  EXPECT_EQ(lens_view(lens, row, frame).defocus_px2, 0);
+  EXPECT_EQ(camera_effects(lens, row, frame).defocus_px2, 0);
   lens = {}, lens.motion_blur = Switch::off;
-  EXPECT_EQ(lens_view(lens, row, frame).motion.shift_m, glm::dvec3(0));
+  EXPECT_EQ(camera_effects(lens, row, frame).motion.shift_m, glm::dvec3(0));
   lens = {}, lens.vignetting = Switch::off;
   EXPECT_EQ(lens.as_drawn(camera).vignetting, glm::dvec3(0));
   EXPECT_TRUE(lens.as_drawn(camera).has_distortion());
   lens = {}, lens.distortion = Switch::off;
   EXPECT_FALSE(lens.as_drawn(camera).has_distortion());
   lens = {}, lens.shutter = 0.25;
-  EXPECT_EQ(lens_view(lens, row, frame).motion.shift_m.x, 0.005);
+  EXPECT_EQ(camera_effects(lens, row, frame).motion.shift_m.x, 0.005);
 }
 
-TEST(LensView, NothingMeasuredIsNothingAddedAndThePlanSaysWhy) {
+TEST(CameraEffects, NothingMeasuredIsNothingAddedAndThePlanSaysWhy) {
   const Frame frame = noisy_frame(scene(), glm::dvec3(0), 0, 1);
-  const render::LensView none = lens_view({}, TrackRow{}, frame);
+  const render::CameraEffects none = camera_effects({}, TrackRow{}, frame);
   EXPECT_FALSE(none.noise.enabled);
   EXPECT_EQ(none.defocus_px2, 0);
   EXPECT_EQ(none.motion.shift_m, glm::dvec3(0));

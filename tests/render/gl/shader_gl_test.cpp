@@ -133,15 +133,15 @@ TEST_F(ShaderGl, ReloadTakesUpWhatWasEditedAndKeepsWhatDoesNotCompile) {
   EXPECT_THAT(compositor.reload_shaders(), IsEmpty());
   EXPECT_EQ(red_in_the_middle(compositor), 0.25f);
 
-  folder.write("lens_noise.glsl", "\n\nvec3 missing_noise() { return nonsense; }\n");
+  folder.write("sensor_noise.glsl", "\n\nvec3 missing_noise() { return nonsense; }\n");
   EXPECT_THAT(compositor.reload_shaders(),
-              ElementsAre(AllOf(HasSubstr("composite.frag"), HasSubstr(folder.path() + "/lens_noise.glsl:3"))));
+              ElementsAre(AllOf(HasSubstr("composite.frag"), HasSubstr(folder.path() + "/sensor_noise.glsl:3"))));
   EXPECT_EQ(red_in_the_middle(compositor), 0.25f) << "the last one that compiled draws on";
 
-  std::filesystem::remove(folder.path() + "/lens_noise.glsl");
-  EXPECT_THAT(compositor.reload_shaders(), ElementsAre(HasSubstr("lens_noise.glsl: cannot be read")));
+  std::filesystem::remove(folder.path() + "/sensor_noise.glsl");
+  EXPECT_THAT(compositor.reload_shaders(), ElementsAre(HasSubstr("sensor_noise.glsl: cannot be read")));
 
-  folder.write("lens_noise.glsl", embedded_shaders().at("lens_noise.glsl"));
+  folder.write("sensor_noise.glsl", embedded_shaders().at("sensor_noise.glsl"));
   folder.write("composite.frag", embedded_shaders().at("composite.frag"));
   EXPECT_THAT(compositor.reload_shaders(), IsEmpty());
   EXPECT_EQ(red_in_the_middle(compositor), as_shipped);

@@ -163,24 +163,24 @@ TEST(ReceiverAlbedo, OfALampBelowTheHorizonIsOneAtMost) {
 
 // ---- parts that go through each other ----
 
-TEST(BuriedVertices, TakeTheMeanOfTheirOpenNeighbours) {
+TEST(InteriorVertices, TakeTheMeanOfTheirOpenNeighbours) {
   Mesh mesh;  // a fan of four around vertex 0, and one triangle that nobody sees
   mesh.materials.push_back(white());
   for (int i = 0; i < 8; ++i) mesh.vertices.push_back({glm::vec3(i, i * i, 0), {0, 0, 1}});
   for (std::uint32_t i = 1; i < 5; ++i) add_triangle(mesh, 0, i, i % 4 + 1);
   add_triangle(mesh, 5, 6, 7);
-  const BuriedVertices buried(mesh, {1, 0, 0, 0, 1, 1, 1, 1});
+  const InteriorVertices interior(mesh, {1, 0, 0, 0, 1, 1, 1, 1});
   std::vector<glm::vec3> values;
   for (int v = 0; v < 8; ++v) values.insert(values.end(), {glm::vec3(v), glm::vec3(10.0f * v)});
-  buried.fill(values);
-  EXPECT_EQ(values[0], glm::vec3(2)) << "of 1, 2 and 3; 4 is buried as well";
+  interior.fill(values);
+  EXPECT_EQ(values[0], glm::vec3(2)) << "of 1, 2 and 3; 4 is interior as well";
   EXPECT_EQ(values[1], glm::vec3(20));
   EXPECT_EQ(values[8], glm::vec3(2)) << "of 1 and 3";
   EXPECT_EQ(values[2], glm::vec3(1)) << "an open one keeps its own";
   EXPECT_EQ(values[12], glm::vec3(6)) << "no open neighbour: not seen";
 }
 
-TEST(BuriedVertices, DoNotDarkenWhatSticksOut) {
+TEST(InteriorVertices, DoNotDarkenWhatSticksOut) {
   // A pyramid's tip sticks out of a box; its base lies within.
   Mesh mesh = box({-1, -1, -1}, {1, 1, 1});
   const auto tip = static_cast<std::uint32_t>(mesh.vertices.size());

@@ -1,4 +1,4 @@
-#include "render/camera/lens_blur.hpp"
+#include "render/camera/camera_blur.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@ constexpr double kInvisible = 1e-5;  ///< share of a Gaussian in its tail
 }  // namespace
 
 MotionField fit_motion(const CameraModel& camera, const DistortionLimit& limit, const RigidTransform& camera_from_tag,
-                       const LensMotion& motion, std::span<const glm::dvec3> points_tag_m) {
+                       const TagMotion& motion, std::span<const glm::dvec3> points_tag_m) {
   const auto seen_px = [&](const glm::dvec3& point_camera_m) { return project_px(camera, point_camera_m, &limit).value(); };
   std::vector<glm::dvec2> places, displacements;
   for (const glm::dvec3& point : points_tag_m) {
@@ -48,7 +48,7 @@ std::vector<float> discrete_gaussian(double variance) {
   const double t = std::clamp(variance, 0.0, kMaxDefocus_px2);
   std::vector<double> weights;
   double sum = 0;
-  for (int n = 0; n < LENS_BLUR_TAPS && 1 - sum > kInvisible; ++n) {
+  for (int n = 0; n < DEFOCUS_TAPS && 1 - sum > kInvisible; ++n) {
     weights.push_back(std::exp(-t) * std::cyl_bessel_i(static_cast<double>(n), t));
     sum += weights.back() * (n == 0 ? 1 : 2);
   }
@@ -57,7 +57,7 @@ std::vector<float> discrete_gaussian(double variance) {
   return result;
 }
 
-int LensBlurPlan::reach_px(const PixelRect& rect) const {
+int CameraBlurPlan::reach_px(const PixelRect& rect) const {
   double reach = variance_px2 > 0 ? static_cast<double>(discrete_gaussian(variance_px2).size()) : 0;
   if (!moves) return static_cast<int>(reach);
   double longest = 0;
@@ -67,10 +67,10 @@ int LensBlurPlan::reach_px(const PixelRect& rect) const {
   return static_cast<int>(std::ceil(reach + std::min(longest, kMaxMotion_px) / 2)) + 2;
 }
 
-LensBlurPlan plan_lens_blur(const FrameView& view, const DistortionLimit& limit, const Bounds& box) {
-  LensBlurPlan plan;
-  if (view.lens.defocus_px2 > kMinDefocus_px2) plan.variance_px2 = std::min(view.lens.defocus_px2, kMaxDefocus_px2);
-  const LensMotion& motion = view.lens.motion;
+CameraBlurPlan plan_camera_blur(const FrameView& view, const DistortionLimit& limit, const Bounds& box) {
+  CameraBlurPlan plan;
+  if (view.effects.defocus_px2 > kMinDefocus_px2) plan.variance_px2 = std::min(view.effects.defocus_px2, kMaxDefocus_px2);
+  const TagMotion& motion = view.effects.motion;
   if (motion.turn_rad == glm::dvec3(0.0) && motion.shift_m == glm::dvec3(0.0)) return plan;
   if (box.empty()) return plan;
   std::array<glm::dvec3, 9> corners, footprint;

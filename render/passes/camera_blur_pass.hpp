@@ -4,19 +4,19 @@
 #include <memory>
 
 #include "catchlight/pixel_rect.hpp"
-#include "render/camera/lens_blur.hpp"
+#include "render/camera/camera_blur.hpp"
 #include "render/gl/fullscreen.hpp"
 #include "render/gl/render_target.hpp"
 #include "render/gl/shader_library.hpp"
 
 namespace catchlight::render {
 
-class LensBlur {
+class CameraBlur {
  public:
-  explicit LensBlur(ShaderLibrary& shaders);
+  explicit CameraBlur(ShaderLibrary& shaders);
 
   /// Blurs textures that hold the frame's pixels of `rect`. Beyond it, its outermost pixels go on.
-  void apply(const LensBlurPlan& plan, const GlTexture& object, const GlTexture& shadow, const PixelRect& rect);
+  void apply(const CameraBlurPlan& plan, const GlTexture& object, const GlTexture& shadow, const PixelRect& rect);
 
   const GlTexture& object() const { return targets_[latest_]->texture(0); }
   const GlTexture& shadow() const { return targets_[latest_]->texture(1); }

@@ -6,7 +6,7 @@
 #include "catchlight/rigid_transform.hpp"
 #include "render/compositor.hpp"
 #include "render/frame_view.hpp"
-#include "render/passes/lens_blur_pass.hpp"
+#include "render/passes/camera_blur_pass.hpp"
 #include "render/render_scene.hpp"
 #include "tests/support/gl_fixture.hpp"
 
@@ -16,7 +16,7 @@
 namespace catchlight::render::test {
 namespace {
 
-class LensBlurGl : public GlTest {
+class CameraBlurGl : public GlTest {
  protected:
   /// A white square 24 x 20 px large in the middle of a black plate, seen straight from above; codes are light.
   static RenderScene white_square() {
@@ -59,7 +59,7 @@ glm::dmat2 spread_of(const Composite& composite) {
 
 FrameView moving(const glm::dvec2& way_px) {
   FrameView view = linear_view_from_above();
-  view.lens.motion.shift_m = glm::dvec3(way_px * (0.5 / 200), 0);
+  view.effects.motion.shift_m = glm::dvec3(way_px * (0.5 / 200), 0);
   return view;
 }
 
@@ -86,11 +86,11 @@ TEST(DiscreteGaussian, TwiceIsOnceWithBothVariances) {
   }
 }
 
-TEST_F(LensBlurGl, DefocusAddsItsVarianceAlongBothAxesAndKeepsTheEnergy) {
+TEST_F(CameraBlurGl, DefocusAddsItsVarianceAlongBothAxesAndKeepsTheEnergy) {
   const Composite sharp = seen(linear_view_from_above());
   for (const double variance : {0.05, 0.3, 2.0, 9.0}) {
     FrameView view = linear_view_from_above();
-    view.lens.defocus_px2 = variance;
+    view.effects.defocus_px2 = variance;
     const Composite blurred = seen(view);
     EXPECT_NEAR(sum_of(blurred) / sum_of(sharp), 1, 1e-4) << variance;
     const glm::dmat2 added = spread_of(blurred) - spread_of(sharp);
@@ -100,7 +100,7 @@ TEST_F(LensBlurGl, DefocusAddsItsVarianceAlongBothAxesAndKeepsTheEnergy) {
   }
 }
 
-TEST_F(LensBlurGl, MotionAddsATwelfthOfItsSquareAlongItsWay) {
+TEST_F(CameraBlurGl, MotionAddsATwelfthOfItsSquareAlongItsWay) {
   const Composite sharp = seen(linear_view_from_above());
   for (const glm::dvec2 way : {glm::dvec2(1, 0), {3, 0}, {0, 5.5}, {8, 0}, {9.3, 0}, {0, 20}}) {
     const Composite blurred = seen(moving(way));
@@ -111,7 +111,7 @@ TEST_F(LensBlurGl, MotionAddsATwelfthOfItsSquareAlongItsWay) {
   }
 }
 
-TEST_F(LensBlurGl, MotionAslantBlursAlongItsWayAndLessThanHalfAPixelAcross) {
+TEST_F(CameraBlurGl, MotionAslantBlursAlongItsWayAndLessThanHalfAPixelAcross) {
   const Composite sharp = seen(linear_view_from_above());
   for (const glm::dvec2 way : {glm::dvec2(6, 6), {8, 3}, {-4, 9}}) {
     const glm::dmat2 added = spread_of(seen(moving(way))) - spread_of(sharp);
@@ -123,7 +123,7 @@ TEST_F(LensBlurGl, MotionAslantBlursAlongItsWayAndLessThanHalfAPixelAcross) {
   }
 }
 
-TEST_F(LensBlurGl, ABlurredEdgeIsTheBoxesRamp) {
+TEST_F(CameraBlurGl, ABlurredEdgeIsTheBoxesRamp) {
   // 9 px of way: an upright edge becomes a straight ramp 9 px wide, but that steps of whole pixels cannot show where in a pixel
   // it begins: half a pixel of ramp, 1/2 * 1/2 * 1/2 / 9 of the light.
   const Composite blurred = seen(moving({9, 0}));
@@ -135,20 +135,20 @@ TEST_F(LensBlurGl, ABlurredEdgeIsTheBoxesRamp) {
   }
 }
 
-TEST_F(LensBlurGl, AStillViewIsTheSameToTheLastBit) {
+TEST_F(CameraBlurGl, AStillViewIsTheSameToTheLastBit) {
   FrameView view = linear_view_from_above();
   Compositor compositor(white_square(), without_glare());
   compositor.render(view, black());  // lights the object
   const Composite plain = compositor.render(view, black());
   const std::size_t passes = compositor.pass_times().size();
-  view.lens.motion.shift_m = {0.4 * 0.5 / 200, 0, 0};  // less than half a pixel
+  view.effects.motion.shift_m = {0.4 * 0.5 / 200, 0, 0};  // less than half a pixel
   const Composite still = compositor.render(view, black());
   EXPECT_EQ(still.rgba, plain.rgba);
   EXPECT_EQ(compositor.pass_times().size(), passes) << "no pass for nothing";
-  EXPECT_TRUE(plan_lens_blur(linear_view_from_above(), distortion_limit({}), {glm::vec3(-1), glm::vec3(1)}).empty());
+  EXPECT_TRUE(plan_camera_blur(linear_view_from_above(), distortion_limit({}), {glm::vec3(-1), glm::vec3(1)}).empty());
 }
 
-TEST_F(LensBlurGl, TheShadowIsBlurredAsTheObjectIs) {
+TEST_F(CameraBlurGl, TheShadowIsBlurredAsTheObjectIs) {
   RenderScene scene = white_square();
   add_receiver(scene.transfer, {.min_m = {-0.15f, -0.1f}, .max_m = {0.15f, 0.1f}, .columns = 121, .rows = 81},
                [](double x, double) { return std::abs(x) < 0.08 ? 0.5 : 1.0; });
@@ -167,10 +167,10 @@ TEST_F(LensBlurGl, TheShadowIsBlurredAsTheObjectIs) {
   EXPECT_GT(steepest_sharp, 2 * steepest_blurred);
 }
 
-TEST_F(LensBlurGl, BlurAtTheFramesEdgeAndOfExtremeLightStaysFinite) {
+TEST_F(CameraBlurGl, BlurAtTheFramesEdgeAndOfExtremeLightStaysFinite) {
   FrameView view = moving({500, 300});
   view.camera_from_tag.translation_m.x = 0.19;
-  view.lens.defocus_px2 = 1e6;
+  view.effects.defocus_px2 = 1e6;
   view.exposure = glm::vec3(1e6f);
   const Composite composite = seen(view);
   ASSERT_FALSE(composite.rect.empty());
@@ -184,7 +184,7 @@ TEST_F(LensBlurGl, BlurAtTheFramesEdgeAndOfExtremeLightStaysFinite) {
 TEST(MotionField, IsTheWayOfEveryPointOfAPlaneToAFiftiethOfTheLongest) {
   CameraModel camera{640, 480, 600, 600, 319.5, 239.5, {-0.2, 0.05}};
   const RigidTransform pose{glm::dmat3(1, 0, 0, 0, -0.8, -0.6, 0, 0.6, -0.8), {0.02, -0.03, 0.6}};
-  const LensMotion motion{{0.004, -0.01, 0.02}, {0.004, 0.002, -0.003}};
+  const TagMotion motion{{0.004, -0.01, 0.02}, {0.004, 0.002, -0.003}};
   std::vector<glm::dvec3> points;
   for (const double x : {-0.05, 0.0, 0.05})
     for (const double y : {-0.05, 0.0, 0.05}) points.emplace_back(x, y, 0);

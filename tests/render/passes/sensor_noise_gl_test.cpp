@@ -1,4 +1,4 @@
-// The footage's grain on the virtual layer: its moments, and where it may not be.
+// The sensor's noise on the virtual layer: its moments, and where it may not be.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -13,7 +13,7 @@
 namespace catchlight::render::test {
 namespace {
 
-class LensNoiseGl : public GlTest {
+class SensorNoiseGl : public GlTest {
  protected:
   /// The whole picture is a square of light 0.5; codes are light.
   static RenderScene grey_wall() {
@@ -25,7 +25,7 @@ class LensNoiseGl : public GlTest {
 
   static FrameView noisy_view(std::uint32_t frame = 7) {
     FrameView view = linear_view_from_above();
-    view.lens.noise = {true, {2e-4f, 3e-4f, 4e-4f}, {1e-5f, 1e-5f, 1e-5f}, glm::mat3(1.0f), {0, 0}, frame};
+    view.effects.noise = {true, {2e-4f, 3e-4f, 4e-4f}, {1e-5f, 1e-5f, 1e-5f}, glm::mat3(1.0f), {0, 0}, frame};
     return view;
   }
 
@@ -44,14 +44,14 @@ class LensNoiseGl : public GlTest {
 
 constexpr double kPixels = 160 * 120;
 
-TEST_F(LensNoiseGl, HasTheVarianceAskedForAndNoMean) {
+TEST_F(SensorNoiseGl, HasTheVarianceAskedForAndNoMean) {
   Compositor compositor(grey_wall(), without_glare());
   const FrameView view = noisy_view();
   const Composite composite = compositor.render(view, linear_grey_plate());
   ASSERT_EQ(composite.rect, (PixelRect{0, 0, 160, 120}));
   for (int c = 0; c < 3; ++c) {
     const std::vector<double> noise = channel(composite, static_cast<std::size_t>(c), 0.5);
-    const double expected = view.lens.noise.slope[c] * 0.5 + view.lens.noise.floor[c], variance = moment(noise, noise);
+    const double expected = view.effects.noise.slope[c] * 0.5 + view.effects.noise.floor[c], variance = moment(noise, noise);
     EXPECT_NEAR(std::accumulate(noise.begin(), noise.end(), 0.0) / kPixels, 0, 4 * std::sqrt(expected / kPixels)) << c;
     EXPECT_NEAR(variance / expected, 1, 4 * std::sqrt(2 / kPixels)) << c;
     double fourth = 0;
@@ -60,7 +60,7 @@ TEST_F(LensNoiseGl, HasTheVarianceAskedForAndNoMean) {
   }
 }
 
-TEST_F(LensNoiseGl, PixelsChannelsAndFramesAreIndependent) {
+TEST_F(SensorNoiseGl, PixelsChannelsAndFramesAreIndependent) {
   Compositor compositor(grey_wall(), without_glare());
   const Composite one = compositor.render(noisy_view(7), linear_grey_plate()),
                   next = compositor.render(noisy_view(8), linear_grey_plate());
@@ -74,19 +74,19 @@ TEST_F(LensNoiseGl, PixelsChannelsAndFramesAreIndependent) {
   for (const std::size_t lag : {0, 1, 160}) EXPECT_NEAR(correlation(red, channel(next, 0, 0.5), lag), 0, 4 * sigma) << lag;
 }
 
-TEST_F(LensNoiseGl, AFrameIsTheSameEveryTimeAndInAnyRectangle) {
+TEST_F(SensorNoiseGl, AFrameIsTheSameEveryTimeAndInAnyRectangle) {
   Compositor compositor(grey_wall(), without_glare());
   EXPECT_EQ(compositor.render(noisy_view(3), linear_grey_plate()).rgba,
             compositor.render(noisy_view(3), linear_grey_plate()).rgba);
 }
 
-TEST_F(LensNoiseGl, ColourIsSharedByABlockAndLumaIsNot) {
+TEST_F(SensorNoiseGl, ColourIsSharedByABlockAndLumaIsNot) {
   Compositor compositor(grey_wall(), without_glare());
   FrameView view = noisy_view();
-  view.lens.noise.slope = glm::vec3(4e-4f), view.lens.noise.floor = glm::vec3(0);
-  view.lens.noise.block_shift = {1, 1};
+  view.effects.noise.slope = glm::vec3(4e-4f), view.effects.noise.floor = glm::vec3(0);
+  view.effects.noise.block_shift = {1, 1};
   // Red has colour alone, green luma alone.
-  view.lens.noise.mix = glm::mat3(1, 0, 0, 0, 0, 1, 0, 1, 0);
+  view.effects.noise.mix = glm::mat3(1, 0, 0, 0, 0, 1, 0, 1, 0);
   const Composite composite = compositor.render(view, linear_grey_plate());
   for (int y = 0; y < 120; y += 2)
     for (int x = 0; x < 160; x += 2) {
@@ -96,13 +96,13 @@ TEST_F(LensNoiseGl, ColourIsSharedByABlockAndLumaIsNot) {
     }
 }
 
-TEST_F(LensNoiseGl, WhatIsNotTouchedIsNotNoisier) {
+TEST_F(SensorNoiseGl, WhatIsNotTouchedIsNotNoisier) {
   RenderScene scene = grey_wall();
   scene.mesh = square({-0.02, -0.02}, {0.02, 0.02}, 0);
   scene.transfer = unshadowed_transfer(scene.mesh, 3);
   Compositor compositor(scene, without_glare());
   FrameView view = noisy_view();
-  view.lens.defocus_px2 = 1e-9;
+  view.effects.defocus_px2 = 1e-9;
   const Composite composite = compositor.render(view, linear_grey_plate());
   for (int y = composite.rect.y; y < composite.rect.y + composite.rect.height; ++y)
     for (int x = composite.rect.x; x < composite.rect.x + composite.rect.width; ++x)
@@ -111,7 +111,7 @@ TEST_F(LensNoiseGl, WhatIsNotTouchedIsNotNoisier) {
       }
 }
 
-TEST_F(LensNoiseGl, AShadowKeepsThePlatesOwnNoiseAndGetsTheRest) {
+TEST_F(SensorNoiseGl, AShadowKeepsThePlatesOwnNoiseAndGetsTheRest) {
   // Ratio r on light I: the plate's noise comes through as r^2 (a I + b), and a r I + b is wanted.
   Material black;
   black.base_color = glm::vec3(0);
@@ -127,7 +127,7 @@ TEST_F(LensNoiseGl, AShadowKeepsThePlatesOwnNoiseAndGetsTheRest) {
   EXPECT_NEAR(moment(noise, noise) / expected, 1, 0.05);
 }
 
-TEST_F(LensNoiseGl, ExtremesStayFinite) {
+TEST_F(SensorNoiseGl, ExtremesStayFinite) {
   Compositor compositor(grey_wall(), {});
   for (const float exposure : {0.0f, 1e-6f, 1e6f}) {
     FrameView view = noisy_view();
@@ -137,7 +137,7 @@ TEST_F(LensNoiseGl, ExtremesStayFinite) {
   }
 }
 
-TEST_F(LensNoiseGl, VignettingIsRelativeToTheTag) {
+TEST_F(SensorNoiseGl, VignettingIsRelativeToTheTag) {
   Compositor compositor(grey_wall(), without_glare());
   FrameView view = linear_view_from_above();
   view.camera.vignetting = {-0.3, 0.05, -0.1};

@@ -1,14 +1,14 @@
-#include "render/passes/lens_blur_pass.hpp"
+#include "render/passes/camera_blur_pass.hpp"
 
 #include "shaders/interface.h"
 
 namespace catchlight::render {
 
-LensBlur::LensBlur(ShaderLibrary& shaders)
-    : gaussian_(shaders.program(fullscreen("lens_gaussian.frag"))), motion_(shaders.program(fullscreen("lens_motion.frag"))) {}
+CameraBlur::CameraBlur(ShaderLibrary& shaders)
+    : gaussian_(shaders.program(fullscreen("defocus.frag"))), motion_(shaders.program(fullscreen("motion_blur.frag"))) {}
 
-void LensBlur::apply(const LensBlurPlan& plan, const GlTexture& object_sharp, const GlTexture& shadow_sharp,
-                     const PixelRect& rect) {
+void CameraBlur::apply(const CameraBlurPlan& plan, const GlTexture& object_sharp, const GlTexture& shadow_sharp,
+                       const PixelRect& rect) {
   const int width = roomy(rect.width), height = roomy(rect.height);
   for (auto& target : targets_)
     if (!target || !target->fits(width, height))
@@ -35,9 +35,9 @@ void LensBlur::apply(const LensBlurPlan& plan, const GlTexture& object_sharp, co
   if (plan.moves) {
     const glm::dvec2 corner(rect.x, rect.y);
     motion_.set("size", size);
-    motion_.set("object_way", glm::vec2(plan.object.at(corner)));
+    motion_.set("object_motion_px", glm::vec2(plan.object.at(corner)));
     motion_.set("object_change", glm::mat2(plan.object.change));
-    motion_.set("shadow_way", glm::vec2(plan.shadow.at(corner)));
+    motion_.set("shadow_motion_px", glm::vec2(plan.shadow.at(corner)));
     motion_.set("shadow_change", glm::mat2(plan.shadow.change));
     draw(motion_);
   }

@@ -1,31 +1,31 @@
-// What the shutter sums up: a box along each pixel's own way, of object and shadow together.
+// Motion blur: a box along each pixel's own motion, of object and shadow together.
 #version 450 core
 #include "interface.h"
 
 layout(binding = TEXTURE_OBJECT) uniform sampler2D object;  // premultiplied exposed linear
 layout(binding = TEXTURE_SHADOW) uniform sampler2D shadow;  // ratio
 uniform ivec2 size;                                         // of what the textures hold
-// Pixels of way at the first pixel, and how it changes.
-uniform vec2 object_way;
+// The motion at the first pixel while the shutter is open, and how it changes from pixel to pixel.
+uniform vec2 object_motion_px;
 uniform mat2 object_change;
-uniform vec2 shadow_way;
+uniform vec2 shadow_motion_px;
 uniform mat2 shadow_change;
 
 layout(location = 0) out vec4 object_blurred;
 layout(location = 1) out vec4 shadow_blurred;
 
-const float kMaxWay = 120.0;
+const float kMaxMotion_px = 120.0;
 
 vec4 fetch(sampler2D source, ivec2 pixel) { return texelFetch(source, clamp(pixel, ivec2(0), size - 1), 0); }
 
 // Steps of a pixel along the longer axis, with the weights (all alike but the two outermost) whose variance is the box's,
 // length^2 / 12; linear between pixels across.
-vec4 mean_along(sampler2D source, ivec2 pixel, vec2 way) {
-  bool steep = abs(way.y) > abs(way.x);
-  float length_px = min(steep ? abs(way.y) : abs(way.x), kMaxWay);
+vec4 mean_along(sampler2D source, ivec2 pixel, vec2 motion_px) {
+  bool steep = abs(motion_px.y) > abs(motion_px.x);
+  float length_px = min(steep ? abs(motion_px.y) : abs(motion_px.x), kMaxMotion_px);
   int reach = int(ceil(0.5 * (sqrt(1.0 + length_px * length_px) - 1.0) - 1e-6));
   if (reach == 0) return fetch(source, pixel);
-  float slope = steep ? way.x / way.y : way.y / way.x;
+  float slope = steep ? motion_px.x / motion_px.y : motion_px.y / motion_px.x;
   float variance = length_px * length_px / 12.0, k = float(reach), inner = (k - 1.0) * k / 3.0;
   float ends = (variance - inner) / (k * k - inner), each = (1.0 - ends) / (2.0 * k - 1.0);
   vec4 sum = vec4(0.0);
@@ -41,6 +41,6 @@ vec4 mean_along(sampler2D source, ivec2 pixel, vec2 way) {
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  object_blurred = mean_along(object, pixel, object_way + object_change * vec2(pixel));
-  shadow_blurred = mean_along(shadow, pixel, shadow_way + shadow_change * vec2(pixel));
+  object_blurred = mean_along(object, pixel, object_motion_px + object_change * vec2(pixel));
+  shadow_blurred = mean_along(shadow, pixel, shadow_motion_px + shadow_change * vec2(pixel));
 }

@@ -9,13 +9,13 @@
 #include "catchlight/pixel_rect.hpp"
 #include "catchlight/projection.hpp"
 #include "catchlight/rigid_transform.hpp"
+#include "render/camera_effects.hpp"
 #include "render/frame_view.hpp"
-#include "render/lens_view.hpp"
 #include "render/mesh/bounds.hpp"
 
 namespace catchlight::render {
 
-/// Where what is seen at a pixel moves while the shutter is open: displacement + change * (pixel - origin). Pixels.
+/// The motion of what is seen at a pixel while the shutter is open: displacement + change * (pixel - origin), in pixels.
 struct MotionField {
   glm::dvec2 origin_px{0.0}, displacement_px{0.0};
   glm::dmat2 change{0.0};
@@ -23,9 +23,9 @@ struct MotionField {
   glm::dvec2 at(const glm::dvec2& pixel) const { return displacement_px + change * (pixel - origin_px); }
 };
 
-/// By least squares over points fixed to the tag, as the camera sees them; none moves where fewer than three are in view.
+/// The motion field by least squares over points fixed to the tag, as the camera sees them; 0 where fewer than three are in view.
 MotionField fit_motion(const CameraModel& camera, const DistortionLimit& limit, const RigidTransform& camera_from_tag,
-                       const LensMotion& motion, std::span<const glm::dvec3> points_tag_m);
+                       const TagMotion& motion, std::span<const glm::dvec3> points_tag_m);
 
 /// e^-t I_n(t) for n = 0, 1, ...: the Gaussian of samples, whose variance is exactly t and which applied twice is that of 2 t
 /// (Lindeberg 1990, "Scale-space for discrete signals"). Ends where it is invisible; with its mirror it sums to 1.
@@ -33,7 +33,7 @@ std::vector<float> discrete_gaussian(double variance);
 
 inline constexpr double kMaxDefocus_px2 = 400, kMaxMotion_px = 120;
 
-struct LensBlurPlan {
+struct CameraBlurPlan {
   double variance_px2 = 0;
   MotionField object, shadow;
   bool moves = false;
@@ -42,8 +42,8 @@ struct LensBlurPlan {
   int reach_px(const PixelRect& rect) const;  ///< how far around a pixel of `rect` its light comes from
 };
 
-/// `limit`: of the view's camera. `box`: around the object, tag frame; its footprint stands for where shadows fall. Less than
-/// half a pixel of motion, which widens no edge by more than a 50th pixel squared, counts as none.
-LensBlurPlan plan_lens_blur(const FrameView& view, const DistortionLimit& limit, const Bounds& box);
+/// `limit`: the distortion limit of the view's camera. `box`: around the object, tag frame; its footprint stands for where
+/// shadows fall. Less than half a pixel of motion, which widens no edge by more than a 50th pixel squared, counts as none.
+CameraBlurPlan plan_camera_blur(const FrameView& view, const DistortionLimit& limit, const Bounds& box);
 
 }  // namespace catchlight::render

@@ -1,4 +1,4 @@
-// One direction of the lens's blur, of object and shadow together.
+// Defocus: one axis of a separable Gaussian, of object and shadow together.
 #version 450 core
 #include "interface.h"
 
@@ -7,7 +7,7 @@ layout(binding = TEXTURE_SHADOW) uniform sampler2D shadow;  // ratio
 uniform ivec2 step_px;
 uniform ivec2 size;                                         // of what the textures hold
 uniform int count;
-uniform float weights[LENS_BLUR_TAPS];                      // of the middle and of each side
+uniform float weights[DEFOCUS_TAPS];                      // of the middle and of each side
 
 layout(location = 0) out vec4 object_blurred;
 layout(location = 1) out vec4 shadow_blurred;
