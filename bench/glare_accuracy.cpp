@@ -33,7 +33,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kRuns = 7;
 
-/// Until the GPU is done.
+/// The time that the work takes until the GPU is done.
 template <typename Work>
 double time_ms(const Work& work) {
   static const bool is_software = gl_info().renderer.find("llvmpipe") != std::string::npos;

@@ -21,7 +21,7 @@ using namespace catchlight;
 using namespace catchlight::render;
 
 constexpr int kMinBands = 3;
-constexpr int kRays = 1024;  // a vertex, as the program's default
+constexpr int kRays = 1024;  // rays a vertex, as the program's default
 constexpr double kTolerance = 0.004;
 constexpr int kMaxSamples = 96;
 const std::filesystem::path kBlenderProbes = "/usr/share/blender/datafiles/studiolights/world";
@@ -64,7 +64,7 @@ Light light_of(const Probe& probe, const glm::dmat3& tag_from_probe, int bands, 
   return light;
 }
 
-/// As the program lights: bands ring below zero around strong lights, light cannot.
+/// What the bands bring, as the program lights: they ring below zero around strong lights, light cannot.
 double smooth_part(const Light& light, const glm::vec3* transfer) {
   double sum = 0;
   for (std::size_t i = 0; i < light.coefficients.size(); ++i) sum += light.coefficients[i] * transfer[i].x;
@@ -122,7 +122,7 @@ double rms_difference(const std::vector<double>& a, const std::vector<double>& b
   return std::sqrt(sum / static_cast<double>(a.size()));
 }
 
-/// In percent of `unit`.
+/// The differences in percent of `unit`.
 Figures compare(const std::vector<double>& ours, const std::vector<double>& other_bake, const std::vector<double>& true_values,
                 double unit) {
   Figures figures{100 * rms_difference(ours, true_values) / unit, 0,

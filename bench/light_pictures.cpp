@@ -24,12 +24,12 @@ using namespace catchlight;
 using namespace catchlight::app;
 
 constexpr int kFrame = 16;
-constexpr int kWidth = 1200;                              // of the pictures
+constexpr int kWidth = 1200;                              // width of the pictures
 constexpr double kBrightProbe = 0.24, kDarkProbe = 0.01;  // exposures
 
 struct Part {
   render::RenderScene scene;
-  glm::dvec3 share;  ///< of the light on the tag
+  glm::dvec3 share;  ///< the part's share of the light on the tag
 };
 
 Image exposed(const Layers& layers, const glm::dvec3& gain) {
@@ -135,7 +135,7 @@ void write(const std::string& path, const std::vector<cv::Mat>& side_by_side) {
   if (!cv::imwrite(path, picture, {cv::IMWRITE_JPEG_QUALITY, 92})) throw Error(path + ": cannot be written");
 }
 
-/// Without the frame's outer parts, where nothing changes.
+/// The picture without the frame's outer parts, where nothing changes.
 cv::Mat middle_of(const cv::Mat& frame) {
   return frame({frame.cols / 4, frame.rows / 4, frame.cols / 2, frame.rows / 2});
 }

@@ -69,7 +69,7 @@ struct Compositor::Impl {
   }
 
   CompositorSettings settings;
-  SplitLight light_probe;  ///< as the probe's frame has it
+  SplitLight light_probe;  ///< the scene's light in the probe's frame
   glm::vec3 probe_in_tag_m;
   Bounds bounds;
   PassClock clock;
@@ -80,14 +80,14 @@ struct Compositor::Impl {
   std::unique_ptr<ReceiverPass> receiver;
   CameraBlur camera_blur;
   GlarePass glare;
-  std::unique_ptr<ApertureGlarePass> aperture_glare;  ///< in its place where settings.glare.method is fft
+  std::unique_ptr<ApertureGlarePass> aperture_glare;  ///< takes the place of `glare` where settings.glare.method is fft
   CompositePass composite;
   std::unique_ptr<TonePass> tone;  ///< null: neither a tone curve nor the classic look
   UniformBuffer<shader_interface::ViewUniforms> view_uniforms{"view"};
   std::optional<glm::dmat3> lit_from;  ///< the light's turn that the points are lit for
   std::unique_ptr<ObjectTarget> object_target;
   std::unique_ptr<ColorTarget<1>> shadow_target;
-  const GlTexture *object_seen = nullptr, *shadow_seen = nullptr;  ///< as the camera's blur leaves them
+  const GlTexture *object_seen = nullptr, *shadow_seen = nullptr;  ///< object and shadow after the camera's blur
   std::vector<PassTime> times;
 };
 
@@ -106,7 +106,7 @@ Compositor::Impl::Impl(const RenderScene& scene, const CompositorSettings& wante
       composite(shaders) {
   settings.samples = supported_samples(wanted.samples);
   if (wanted.tone.enabled || wanted.look == Look::classic) tone = std::make_unique<TonePass>(wanted, shaders);
-  if (wanted.look == Look::classic) settings.glare.enabled = false;  // that look has its own
+  if (wanted.look == Look::classic) settings.glare.enabled = false;  // the classic look has its own
   if (settings.glare.enabled && wanted.glare.method == GlareMethod::fft)
     aperture_glare = std::make_unique<ApertureGlarePass>(wanted.glare);
   if (scene.transfer.grid.columns >= 2 && scene.transfer.grid.rows >= 2)

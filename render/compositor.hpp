@@ -14,8 +14,8 @@
 
 namespace catchlight::render {
 
-/// Needs a current GL 4.5 core context for its whole life. Throws Error where a shader does not compile (file and log) or a
-/// texture is too large.
+/// The compositor needs a current GL 4.5 core context for its whole life. Throws Error where a shader does not compile (file and
+/// log) or a texture is too large.
 class Compositor {
  public:
   Compositor(const RenderScene& scene, const CompositorSettings& settings);
@@ -23,11 +23,11 @@ class Compositor {
   Compositor(Compositor&&) noexcept;
   Compositor& operator=(Compositor&&) noexcept;
 
-  /// Deterministic: the same input gives the same bytes. Holds no state between frames but buffers.
+  /// The frame with the virtual layer in it. The same input gives the same bytes; no state but buffers is kept between frames.
   /// With layers there is no tone curve: they are the scene's light, for a compositing package to expose.
   Composite render(const FrameView& view, const PlateReader& plate, bool want_layers = false);
 
-  /// Composite::tone_wanted alone: the frame is drawn, but neither coded nor read back.
+  /// The curve that the frame calls for (Composite::tone_wanted) alone: it is drawn, but neither coded nor read back.
   ToneCurve meter(const FrameView& view, const PlateReader& plate);
 
   /// How long the last frame's passes took.

@@ -14,7 +14,7 @@ double passed_at_tag(const FrameView& view, const DistortionLimit& limit) {
   return tag_px ? vignetting_at(view.camera, *tag_px) : 0;
 }
 
-/// Pixels that object or shadow may touch before they are blurred.
+/// The pixels that object or shadow may touch before they are blurred.
 PixelRect sharp_rect(const FrameView& view, const SceneNeeds& scene, const FramePlan& plan) {
   PixelRect rect;
   if (!scene.object.empty()) rect = visible_rect(view.camera, plan.distortion_limit, view.camera_from_tag, scene.object, kNear_m);

@@ -6,7 +6,7 @@
 
 namespace catchlight::render {
 
-/// The scene itself; throws Error saying which parts disagree.
+/// The scene itself, checked: throws Error saying which parts disagree.
 const RenderScene& checked(const RenderScene& scene);
 
 /// Throws Error naming what is not finite or out of range.

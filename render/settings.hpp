@@ -27,13 +27,13 @@ struct GlareSettings {
   double streak_dispersion = 0;      ///< 1: a streak is as long as its colour's wavelength says; 0: all alike
   double streak_rotation_deg = 45;
   double streak_width = 0.006;  ///< standard deviation across, in shares of the frame's height
-  double emitter_strength = 1;  ///< of what the object's materials emit, against what else is as bright
-  int emitter_directions = 0;   ///< streaks of what they emit; 0: as of the rest
-  int streak_passes = 0;        ///< of four samples each; 0: as many as can be seen
+  double emitter_strength = 1;  ///< glare of what the object's materials emit, against what else is as bright
+  int emitter_directions = 0;   ///< streak directions of what the materials emit; 0: as of the rest
+  int streak_passes = 0;        ///< passes of four samples each; 0: as many as can be seen
   int grid_rows = 240;          ///< resolution that glare is computed at; texels are never smaller than pixels
   GlareMethod method = GlareMethod::fast;
-  std::string aperture = "none";  ///< or what aperture_picture() takes
-  double aperture_mm = 2;         ///< width of its picture
+  std::string aperture = "none";  ///< "none", or what aperture_picture() takes
+  double aperture_mm = 2;         ///< width of the aperture's picture
   double aperture_strength = 1;   ///< 1: as much as the aperture diffracts
 
   bool operator==(const GlareSettings&) const = default;
@@ -49,10 +49,9 @@ constexpr auto names_of(Look) {
 struct CompositorSettings {
   GlareSettings glare;
   Look look = Look::camera;
-  ToneSettings tone;  ///< with it, or with the classic look, every pixel of every frame changes
-  int samples = 4;    ///< multisampling of the object's edges
-  int reflection_rays =
-      16;  ///< over the lobe of a rough surface; 0: only the probe is mirrored, neither the object nor the receiver
+  ToneSettings tone;          ///< with it, or with the classic look, every pixel of every frame changes
+  int samples = 4;            ///< multisampling of the object's edges
+  int reflection_rays = 16;   ///< rays over the lobe of a rough surface; 0: the probe alone is mirrored
   std::string shader_folder;  ///< overrides the embedded shaders where not empty
 
   bool operator==(const CompositorSettings&) const = default;

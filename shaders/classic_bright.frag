@@ -4,7 +4,7 @@
 #include "interface.h"
 
 layout(binding = TEXTURE_SOURCE) uniform sampler2D scene;  // linear, the picture in its first texels
-uniform ivec2 size;                                        // of the picture
+uniform ivec2 size;                                        // size of the picture
 uniform float threshold;                                   // luminance
 
 layout(location = 0) out vec4 bright;

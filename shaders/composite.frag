@@ -21,12 +21,12 @@ vec3 finite_or_zero(vec3 v) { return mix(v, vec3(0.0), bvec3(uvec3(isnan(v)) | u
 
 vec3 glare_at(ivec2 pixel) {
   if (composite.modes.z == 0) return vec3(0.0);
-  if (composite.modes.z == 2) return texelFetch(glare_grid, pixel, 0).rgb;  // of an aperture, at the frame's own resolution
+  if (composite.modes.z == 2) return texelFetch(glare_grid, pixel, 0).rgb;  // an aperture's glare, at the frame's own resolution
   // Catmull-Rom's cubic under the streaks may undershoot by a little.
   return max(bspline(glare_grid, (vec2(pixel) + 0.5) * composite.glare_from_frame.xy + composite.glare_from_frame.zw), 0.0);
 }
 
-// Of the light at the tag, how much reaches this place of the sensor.
+// Share of the light at the tag that reaches this place of the sensor.
 float vignetting_at(ivec2 pixel) {
   vec2 off = vec2(pixel) - composite.vignetting_at.xy;
   float r2 = dot(off, off) * composite.vignetting_at.z;

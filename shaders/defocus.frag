@@ -5,9 +5,9 @@
 layout(binding = TEXTURE_OBJECT) uniform sampler2D object;  // premultiplied exposed linear
 layout(binding = TEXTURE_SHADOW) uniform sampler2D shadow;  // ratio
 uniform ivec2 step_px;
-uniform ivec2 size;                                         // of what the textures hold
+uniform ivec2 size;                                         // size of what the textures hold
 uniform int count;
-uniform float weights[DEFOCUS_TAPS];                      // of the middle and of each side
+uniform float weights[DEFOCUS_TAPS];                        // weights of the middle and of each side
 
 layout(location = 0) out vec4 object_blurred;
 layout(location = 1) out vec4 shadow_blurred;

@@ -8,7 +8,7 @@
 
 layout(binding = TEXTURE_SOURCE) uniform sampler2D source;
 uniform ivec2 axis;
-uniform float taps[TAPS];  // at distance 0, 1, 2 ...
+uniform float taps[TAPS];  // weights at distance 0, 1, 2 ...
 layout(location = 0) out vec4 result;
 
 void main() {

@@ -13,7 +13,7 @@
 
 layout(binding = TEXTURE_SOURCE) uniform sampler2D source;      // rgb; in the second pass also a, the emitted part
 layout(binding = TEXTURE_EMISSION) uniform sampler2D emission;  // rgb of the object's own light
-uniform int first_pixel;  // of the frame, that the source's texel 0 holds along the axis
+uniform int first_pixel;  // pixel of the frame that the source's texel 0 holds along the axis
 uniform int source_size;  // how much of the source is filled along it
 uniform float texel_px;
 layout(location = 0) out vec4 result;

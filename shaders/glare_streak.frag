@@ -9,11 +9,11 @@
 
 layout(binding = TEXTURE_SOURCE) uniform sampler2D source;
 // Few uniforms, and the rest computed: on a software rasteriser an array of weights costs as much as the reads.
-uniform vec2 offset;   // of the source's texels from the target's
+uniform vec2 offset;   // offset of the source's texels from the target's
 uniform vec2 pace;     // texels from one sample to the next, whole along the streak's larger axis
 uniform ivec2 across;  // the other axis
 uniform vec3 gain;
-uniform vec3 falloff;  // from one sample to the next
+uniform vec3 falloff;  // factor from one sample to the next
 uniform ivec4 bounds;  // first and last texel of the source that counts
 layout(location = 0) out vec4 result;
 

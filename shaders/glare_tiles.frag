@@ -7,7 +7,7 @@
 #endif
 
 layout(binding = TEXTURE_SOURCE) uniform sampler2D source;
-uniform ivec2 first_pixel;  // of the frame, that the source's texel 0 holds
+uniform ivec2 first_pixel;  // pixel of the frame that the source's texel 0 holds
 uniform ivec2 source_size;  // how much of the source is filled
 uniform float texel_px;
 uniform float threshold;

@@ -93,7 +93,7 @@ UNIFORM_BLOCK(ViewUniforms, BINDING_VIEW) {
 }
 BLOCK_NAME(view);
 
-// In a storage block (std430).
+// A material as a storage block has it (std430).
 struct SurfaceMaterial {
   vec4 base_color_metallic;
   vec4 emissive_roughness;
@@ -111,18 +111,18 @@ BLOCK_NAME(light);
 // Lights split off the probe.
 UNIFORM_BLOCK(LightSampleUniforms, BINDING_LIGHT_SAMPLES) {
   ivec4 count;                         // samples
-  vec4 sphere;                         // around the object: middle in the tag frame, radius
+  vec4 sphere;                         // sphere around the object: middle in the tag frame, radius
   vec4 lift_m;                         // x: how far above a surface its shadows are looked up
   vec4 to_light[MAX_LIGHT_SAMPLES];    // tag frame, length 1; w: spread (rad)
-  vec4 right[MAX_LIGHT_SAMPLES];       // of the shadow map
-  vec4 irradiance[MAX_LIGHT_SAMPLES];  // on a surface that faces the light; w: 1 where it makes highlights
+  vec4 right[MAX_LIGHT_SAMPLES];       // the shadow map's x axis
+  vec4 irradiance[MAX_LIGHT_SAMPLES];  // irradiance on a surface that faces the light; w: 1 where it makes highlights
 }
 BLOCK_NAME(light_samples);
 
 UNIFORM_BLOCK(ReceiverUniforms, BINDING_RECEIVER) {
   vec4 min_max_m;         // tag x, y of the first and last points
-  vec4 lights_min_max_m;  // of the corners of the lights' texture
-  vec4 drawn_min_max_m;   // around both
+  vec4 lights_min_max_m;  // corners of the lights' texture
+  vec4 drawn_min_max_m;   // rectangle around both
   vec4 one_over_unshadowed;
   vec4 unshadowed_rest;  // irradiance / pi of what is not split off
   vec4 unshadowed_lights;
@@ -138,7 +138,7 @@ UNIFORM_BLOCK(CompositeUniforms, BINDING_COMPOSITE) {
   ivec4 plate_rect;    // what the plate texture holds
   ivec4 modes;         // TransferFunction, codes end at 1, glare (1: on its grid, 2: by pixels), result is linear light
   vec4 black;
-  vec4 receiver_light;    // of the receiver where it is not shadowed, exposed linear; 0: not known
+  vec4 receiver_light;    // light of the receiver where it is not shadowed, exposed linear; 0: not known
   vec4 code_limits;       // x: smallest difference of codes that counts; y: the clipping level
   vec4 glare_from_frame;  // texels of the glare = pixel * xy + zw
   ivec4 noise;            // added, seed, log2 of the pixels that share a colour (across, down)

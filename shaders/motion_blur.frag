@@ -4,7 +4,7 @@
 
 layout(binding = TEXTURE_OBJECT) uniform sampler2D object;  // premultiplied exposed linear
 layout(binding = TEXTURE_SHADOW) uniform sampler2D shadow;  // ratio
-uniform ivec2 size;                                         // of what the textures hold
+uniform ivec2 size;                                         // size of what the textures hold
 // The motion at the first pixel while the shutter is open, and how it changes from pixel to pixel.
 uniform vec2 object_motion_px;
 uniform mat2 object_change;

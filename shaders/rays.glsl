@@ -12,7 +12,7 @@ layout(std430, binding = BINDING_VERTICES) readonly buffer VertexBlock { float v
 struct RayHit {
   uvec4 triangle;  // corners, material
   float distance_m;
-  vec2 weights;  // of corners 1 and 2
+  vec2 weights;  // barycentric weights of corners 1 and 2
 };
 
 vec3 vertex_vec3(uint vertex, uint member) {

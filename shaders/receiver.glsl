@@ -25,7 +25,7 @@ float rim_fade(vec2 texel, vec2 size) {
   return smoothstep(0.0, kFadePoints, min(to_rim.x, to_rim.y));
 }
 
-// At `place` on the plane (tag x, y).
+// The ratio at `place` on the plane (tag x, y).
 vec3 shadow_ratio(vec2 place) {
   vec2 cells = (place - receiver.min_max_m.xy) / (receiver.min_max_m.zw - receiver.min_max_m.xy) * vec2(receiver.points.xy - 1);
   vec2 within = (place - receiver.lights_min_max_m.xy) / (receiver.lights_min_max_m.zw - receiver.lights_min_max_m.xy);

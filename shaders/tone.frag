@@ -4,11 +4,11 @@
 #include "color.glsl"
 
 layout(binding = TEXTURE_SOURCE) uniform sampler2D scene;  // linear light
-layout(binding = TEXTURE_BLOOM) uniform sampler2D bloom;   // of the classic look, in the scene's units
+layout(binding = TEXTURE_BLOOM) uniform sampler2D bloom;   // bloom of the classic look, in the scene's units
 layout(binding = TEXTURE_STREAKS) uniform sampler2D streaks;
 uniform vec2 curve;                                        // gain, 1 / white^2
 uniform vec3 luminance_weights;
-uniform vec2 glare_strength;                               // of bloom and streaks
+uniform vec2 glare_strength;                               // strength of bloom and streaks
 uniform vec2 one_over_frame;
 
 layout(location = 0) out vec4 result;  // codes

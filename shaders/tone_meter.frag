@@ -6,7 +6,7 @@ layout(binding = TEXTURE_SOURCE) uniform sampler2D scene;  // linear
 uniform vec3 luminance_weights;
 layout(std430, binding = BINDING_LUMINANCES) buffer Luminances { uint bins[]; };  // count and sum of the rest (two words), a bin each
 
-const uint kRestBits = 17;                                   // of 23 in the mantissa: 64 bins an octave
+const uint kRestBits = 17;                                   // bits below a bin's, of 23 in the mantissa: 64 bins an octave
 const uint kFirst = ((127u - 32u) << (23u - kRestBits)) - 1;  // bin 1 starts at 2^-32
 
 void main() {

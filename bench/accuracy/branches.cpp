@@ -22,7 +22,7 @@ glm::dvec3 mirrored_normal(const RigidTransform& camera_from_tag) {
   return 2 * glm::dot(normal, sight) * sight - normal;
 }
 
-/// Nearer to the mirrored pose than to the true one; two that are within 4 degrees are as good as one.
+/// Whether a pose is nearer to the mirrored one than to the true one; two that are within 4 degrees are as good as one.
 bool is_wrong(const RigidTransform& found, const RigidTransform& truth) {
   const glm::dvec3 normal = truth.rotation[2], mirrored = mirrored_normal(truth);
   return glm::dot(normal, mirrored) < std::cos(glm::radians(4.0)) &&

@@ -12,7 +12,7 @@ namespace {
 constexpr double kFramesPerS = 24;
 constexpr int kEasyFrames = 3, kRisingFrames = 3, kHardFrames = 8;
 
-/// Every quantity of the two, mixed.
+/// The stress between two, in every quantity.
 Stress between(const Stress& easy, const Stress& hard, double share) {
   Stress mixed = hard;
   for (const auto value : {&Stress::size_px, &Stress::tilt_deg, &Stress::noise_codes, &Stress::blur_px, &Stress::motion_px,
@@ -77,7 +77,7 @@ void draw(const Bar& bar, double light_linear, SyntheticFrame& frame) {
   }
 }
 
-/// From shares of white to light.
+/// Makes light of shares of white.
 void light(double contrast, SyntheticFrame& frame) {
   const double white_linear = std::min(0.6, 0.2 * std::sqrt(contrast)), black_linear = white_linear / contrast;
   for (float& pixel : frame.linear) pixel = static_cast<float>(std::lerp(black_linear, white_linear, static_cast<double>(pixel)));

@@ -33,22 +33,24 @@ struct Stress {
   double size_px = 60, tilt_deg = 25;
   double noise_codes = 3, blur_px = 0.7;
   double motion_px = 0;        ///< length of the smear; from frame to frame the tag moves twice that, as at a 180 degree shutter
-  double covered_percent = 0;  ///< by a bar across the tag, its end inside
+  double covered_percent = 0;  ///< share covered by a bar across the tag, its end inside
   double bar_linear = 0.02;
-  double k1 = 0;         ///< of the lens, whose tag then lies far off its axis
+  double k1 = 0;         ///< radial distortion of the lens; the tag then lies far off its axis
   double contrast = 20;  ///< light of white over that of black; their geometric mean is 0.2 at most, white 0.6 at most
 };
 
-/// Uniform in [low, high); the same on every platform.
+/// A uniform number in [low, high); the same on every platform.
 double uniform(std::mt19937& random, double low, double high);
 
-/// 3 frames of `easy`, 3 between, 8 of `hard`, which are those judged. Lens and picture size are those of `hard` throughout.
+/// A clip of 3 frames of `easy`, 3 between, 8 of `hard`, which are those judged. Lens and picture size are those of `hard`
+/// throughout.
 Clip stress_clip(const Stress& easy, const Stress& hard, unsigned seed);
 
 /// One still tag under `seeds` different noises.
 Clip still_clip(double size_px, double noise_codes, int seeds, unsigned seed);
 
-/// 48 frames at 24 Hz of a tag of 30 to 60 px that sways, turns and drifts within 15 degrees of frontal; focal length 1000 px.
+/// A clip of 48 frames at 24 Hz of a tag of 30 to 60 px that sways, turns and drifts within 15 degrees of frontal; focal length
+/// 1000 px.
 Clip frontal_clip(unsigned seed);
 
 }  // namespace catchlight::tracking

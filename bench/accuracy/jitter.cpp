@@ -16,7 +16,7 @@ struct Spread {
   int count = 0;
 };
 
-/// About each corner's own mean: a bias is not a jitter.
+/// Adds the spread about each corner's own mean: a bias is not a jitter.
 void add_spread(const Estimates& estimates, Spread& spread) {
   for (int corner = 0; corner < 4; ++corner) {
     glm::dvec2 sum(0);

@@ -8,7 +8,7 @@
 namespace catchlight::tracking {
 namespace {
 
-constexpr int kClips = 5;  ///< a level, of 8 judged frames each
+constexpr int kClips = 5;  ///< clips a level, of 8 judged frames each
 
 struct Ladder {
   const char* file;
@@ -18,7 +18,7 @@ struct Ladder {
   double easy;
   std::vector<double> levels;
   Stress base = {};
-  double most_rise = std::numeric_limits<double>::infinity();  ///< from the easy frames to the hard ones
+  double most_rise = std::numeric_limits<double>::infinity();  ///< rise of the stress from the easy frames to the hard ones
 };
 
 std::vector<Ladder> ladders() {

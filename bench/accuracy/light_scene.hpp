@@ -14,14 +14,14 @@ namespace catchlight::render {
 /// A place on the object or the plane, tag frame. Rays start at `origin_m`, a hair above it.
 struct SeenPoint {
   glm::vec3 origin_m, normal;
-  std::size_t index;  ///< of the vertex or the receiver's grid point
+  std::size_t index;  ///< number of the vertex or of the receiver's grid point
 };
 
 struct LightScene {
   Mesh mesh;  ///< white
   ReceiverGrid grid;
   std::unique_ptr<RayScene> rays;
-  std::vector<SeenPoint> object, ground;  ///< well apart from each other; of the ground those that the object leaves open
+  std::vector<SeenPoint> object, ground;  ///< well apart from each other; on the ground only those that the object leaves open
 };
 
 LightScene make_light_scene();

@@ -24,15 +24,15 @@ struct MethodResult {
   Estimates estimates;
 };
 
-/// Peers see single frames: Debian's AprilTag library at full resolution, and OpenCV's aruco module (left out where it is not
+/// The peers see single frames: Debian's AprilTag library at full resolution, and OpenCV's aruco module (left out where it is not
 /// installed) with its AprilTag-2 detector and with its own and cornerSubPix, all else at its defaults. Poses are the better of
 /// IPPE's two, by OpenCV.
 std::vector<MethodResult> peers(const Clip& clip);
 
-/// Ours frame by frame, with no memory, on each rung.
+/// Our own method frame by frame, with no memory, on each rung.
 std::vector<MethodResult> rungs(const Clip& clip);
 
-/// Ours through the clip: `direct, follow` knows the frames before, `direct, solved` those after too.
+/// Our own method through the clip: `direct, follow` knows the frames before, `direct, solved` those after too.
 std::vector<MethodResult> followed(const Clip& clip);
 
 using Measure = std::vector<MethodResult> (*)(const Clip&);

@@ -1,4 +1,4 @@
-// From the camera frame to GL's clip space. The only place where OpenCV's camera meets GL.
+// The way from the camera frame to GL's clip space: the only place where OpenCV's camera meets GL.
 #pragma once
 
 #include <glm/glm.hpp>

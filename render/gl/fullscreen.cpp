@@ -5,7 +5,7 @@
 namespace catchlight::render {
 namespace {
 
-constexpr int kTriangle = 3;  ///< vertices, for which fullscreen.vert needs no corners
+constexpr int kTriangle = 3;  ///< vertices of the triangle for which fullscreen.vert needs no corners
 
 void upload(GLuint buffer, const std::vector<glm::vec2>& corners) {
   glNamedBufferData(buffer, static_cast<GLsizeiptr>(corners.size() * sizeof(glm::vec2)), corners.data(), GL_STREAM_DRAW);

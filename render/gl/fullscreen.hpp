@@ -33,7 +33,7 @@ class FullscreenDraw {
             Blending blending = Blending::replace) const;
 
  private:
-  GlBuffer corners_;  ///< the rectangles'
+  GlBuffer corners_;  ///< corners of the rectangles that are drawn
   GlVertexArray vertex_array_;
 };
 

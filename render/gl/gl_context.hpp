@@ -6,12 +6,13 @@
 
 namespace catchlight::render {
 
-/// Current on the creating thread until another is made or made current there. Everything made in it must be gone before it goes.
+/// A context is current on the creating thread until another is made or made current there. All made in it must go before it
+/// goes.
 class GlContext {
  public:
   virtual ~GlContext() = default;
 
-  /// Makes it the calling thread's; cheap where it already is. Throws Error where another thread has it.
+  /// Makes the context the calling thread's; cheap where it already is. Throws Error where another thread has it.
   virtual void make_current() = 0;
 };
 
@@ -19,11 +20,11 @@ struct GlInfo {
   std::string vendor, renderer, version, glsl_version, platform;
 };
 
-/// EGL: first device platform, then Mesa's surfaceless, then the default display. Throws Error with what each of them said.
-/// Installs a debug callback that turns high-severity messages into an Error at the next check_gl().
+/// A context by EGL: of the first device platform, else Mesa's surfaceless, else the default display. Throws Error with what each
+/// said. Installs a debug callback that turns high-severity messages into an Error at the next check_gl().
 std::unique_ptr<GlContext> make_headless_context();
 
-/// The current context says what it is.
+/// What the current context says about itself.
 GlInfo gl_info();
 
 /// Makes high-severity messages of the current context wait for check_gl(). Headless contexts have it from the start.

@@ -12,7 +12,7 @@ namespace catchlight::render {
 
 class PassClock {
  public:
-  /// The pass lasts as long as this lives. Passes do not nest.
+  /// A pass, which lasts as long as its scope lives. Passes do not nest.
   class Scope {
    public:
     Scope(PassClock& clock, const char* name);
@@ -25,7 +25,7 @@ class PassClock {
   void begin_frame();
   [[nodiscard]] Scope pass(const char* name) { return Scope(*this, name); }
 
-  /// Waits for the GPU's figures.
+  /// The times of the last frame's passes; waits for the GPU's figures.
   std::vector<PassTime> times() const;
 
  private:

@@ -13,7 +13,7 @@ class PointCapture {
   /// `output`: the shader's vec3 to keep.
   PointCapture(const std::string& vertex_shader, const std::string& output, ShaderLibrary& shaders);
 
-  /// 3 floats each for points 0 to `points` - 1, from byte `offset` of `target` on.
+  /// Captures 3 floats each for points 0 to `points` - 1, from byte `offset` of `target` on.
   void run(GLuint target, GLintptr offset, int points) const;
 
  private:

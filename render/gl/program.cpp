@@ -63,7 +63,7 @@ GlProgram link(const ProgramSource& source, const std::vector<ShaderText>& texts
   return program;
 }
 
-/// -1, which GL takes for nothing to be set, where the compiler dropped the uniform because nothing reads it.
+/// The uniform's location: -1, which GL takes for nothing to be set, where the compiler dropped it because nothing reads it.
 GLint locate(const GlProgram& program, const ProgramSource& source, const std::vector<ShaderText>& texts,
              const std::string& uniform) {
   const GLint location = glGetUniformLocation(program.id(), uniform.c_str());

@@ -11,7 +11,7 @@ namespace catchlight::render {
 /// Multisampled object colour with depth, and what they resolve to.
 class ObjectTarget {
  public:
-  /// `with_layers` adds reflection, and normal with depth; `with_emission` the light of the object's own.
+  /// `with_layers` adds reflection, and normal with depth; `with_emission` the light that the object emits.
   ObjectTarget(int width, int height, int samples, bool with_layers, bool with_emission);
 
   bool fits(int width, int height, bool with_layers) const {
@@ -26,7 +26,7 @@ class ObjectTarget {
   /// The first width x height pixels of layer 0 (colour), 1 (reflection) or 2 (normal and depth), RGBA.
   Image read(int layer, int width, int height) const;
 
-  /// After resolve(); premultiplied by coverage.
+  /// The layers after resolve(), premultiplied by coverage.
   const GlTexture& color() const { return resolved_textures_[0]; }
   const GlTexture& reflection() const { return resolved_textures_[1]; }
   const GlTexture& normal_depth() const { return resolved_textures_[2]; }
@@ -70,7 +70,7 @@ class ColorTarget {
   GlTexture textures_[kCount];
 };
 
-/// Sizes that follow a moving rectangle grow in steps, so that buffers are seldom made anew.
+/// The size of a buffer that follows a moving rectangle: it grows in steps, so that buffers are seldom made anew.
 inline int roomy(int pixels) {
   return (pixels + 63) / 64 * 64;
 }

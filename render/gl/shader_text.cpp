@@ -56,7 +56,7 @@ void append_file(ShaderText& result, const std::string& name, const std::string&
   }
 }
 
-/// Nothing may stand before #version; the log's line numbers stay those of the file.
+/// Inserts the defines: nothing may stand before #version, and the log's line numbers stay those of the file.
 void insert_defines(std::string& text, const std::vector<std::string>& defines) {
   if (defines.empty()) return;
   const std::size_t at = text.find('\n', text.find("#version")) + 1;

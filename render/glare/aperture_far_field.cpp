@@ -21,7 +21,7 @@ void check(const Image& aperture) {
     throw Error("an aperture is black all over: no light passes");
 }
 
-/// In OpenCV's packed form, in place.
+/// The spectrum of the padded aperture, in OpenCV's packed form.
 Image packed_spectrum(const Image& aperture, int size) {
   Image plane(size, size, 1);
   for (int y = 0; y < aperture.height; ++y) std::copy_n(aperture.pixel(0, y), aperture.width, plane.pixel(0, y));
@@ -83,7 +83,7 @@ void ApertureFarField::accumulate(const Image& spectrum) {
   for (double& value : integrals_) value /= total;
 }
 
-/// Of the samples left of `column` and above `row`, in corners.
+/// Sum of the samples left of `column` and above `row`, which count corners.
 double ApertureFarField::integral(double column, double row) const {
   column = std::clamp(column, 0.0, static_cast<double>(columns_));
   row = std::clamp(row, 0.0, static_cast<double>(size_));

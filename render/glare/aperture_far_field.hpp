@@ -23,7 +23,7 @@ class ApertureFarField {
 
   /// The aperture's resolution ends here: half its pixels.
   double limit() const { return 0.5 * pixels_; }
-  /// Distance between samples.
+  /// Distance between samples, as a direction.
   double sample() const { return static_cast<double>(pixels_) / size_; }
 
  private:
@@ -31,7 +31,7 @@ class ApertureFarField {
   double integral(double column, double row) const;
 
   int pixels_, size_, columns_;
-  std::vector<double> integrals_;  ///< of samples left of and above each corner; columns_ + 1 by size_ + 1 corners
+  std::vector<double> integrals_;  ///< sum of the samples left of and above each corner; columns_ + 1 by size_ + 1 corners
 };
 
 }  // namespace catchlight::render

@@ -1,4 +1,4 @@
-// What stands in the light's way in a lens or an eye.
+// Apertures: what stands in the light's way in a lens or an eye.
 #pragma once
 
 #include <functional>

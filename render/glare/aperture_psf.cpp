@@ -14,11 +14,11 @@ namespace catchlight::render {
 namespace {
 
 constexpr int kMinPicture_px = 512, kMaxPicture_px = 4096, kMaxTransform_px = 8192;
-/// Of a pixel: the far field's samples at the longest wave.
+/// Distance of the far field's samples at the longest wave.
 constexpr double kSample_px = 0.75;
-/// Of the picture: padding below which rings finer than a pixel would beat against the samples.
+/// Smallest padding, in picture widths: with less, rings finer than a pixel would beat against the samples.
 constexpr double kPadding = 1.5;
-/// Of the reach, where fading sets in.
+/// Share of the reach at which fading sets in.
 constexpr double kFadeStart = 0.75;
 constexpr int kMinWaves = 40, kWaveSteps = 5;
 
@@ -61,7 +61,7 @@ std::vector<Wave> waves(const ApertureOptics& optics, int count) {
   return result;
 }
 
-/// Share in the pixel at (x, y) from the point, x >= 0.
+/// Share of the light that falls into the pixel at (x, y) from the point, x >= 0.
 double pixel_share(const ApertureFarField& field, int x, int y, double px_per_cycle) {
   const double s = 1 / px_per_cycle, top = (y - 0.5) * s, bottom = (y + 0.5) * s;
   if (x > 0) return field.share((x - 0.5) * s, (x + 0.5) * s, top, bottom);
@@ -75,13 +75,13 @@ glm::dvec3 within_primaries(const glm::dvec3& rgb) {
   return glm::max(glm::dvec3(luminance) + (rgb - luminance) * (luminance / (luminance - least)), 0.0);
 }
 
-/// 1 near the middle, 0 from `end` on.
+/// A weight of 1 near the middle and 0 from `end` on.
 double fade(double radius, double end) {
   const double t = std::clamp((radius / end - kFadeStart) / (1 - kFadeStart), 0.0, 1.0);
   return 0.5 + 0.5 * std::cos(glm::pi<double>() * t);
 }
 
-/// Enough that the spectrum's steps lie no more than about two pixels apart at that radius.
+/// How often the number of waves is doubled so that the spectrum's steps lie no more than about two pixels apart at that radius.
 std::size_t wave_step(double radius) {
   const double octaves = std::ceil(std::log2(std::max(radius / 2, 1.0) / kMinWaves));
   return static_cast<std::size_t>(std::clamp(octaves, 0.0, static_cast<double>(kWaveSteps - 1)));

@@ -11,7 +11,7 @@
 namespace catchlight::render {
 namespace {
 
-/// Of the picture's width: an edge's soft pixel stays inside.
+/// Radius of the rim, in picture widths: an edge's soft pixel stays inside.
 constexpr double kRim = 0.49;
 
 /// How much of a pixel lies inside an edge `distance_px` away (inside: negative).
@@ -31,7 +31,7 @@ Image drawn(int size_px, const Distance& distance) {
   return image;
 }
 
-/// Uniform in [low, high); std's distributions differ between libraries.
+/// Uniform numbers in [low, high), the same everywhere; std's distributions differ between libraries.
 class Random {
  public:
   explicit Random(std::uint32_t seed) : engine_(seed) {}
@@ -78,7 +78,7 @@ void block_grain(Image& image, const glm::dvec2& middle, double radius) {
     }
 }
 
-/// Bends sideways on its way, by `bend` of its length.
+/// A tapering lash that bends sideways by `bend` of its length.
 void block_lash(Image& image, const glm::dvec2& root, const glm::dvec2& tip, double bend, double radius) {
   constexpr int kPieces = 24;
   const glm::dvec2 along = tip - root, control = root + 0.5 * along + bend * glm::dvec2(-along.y, along.x);
@@ -89,7 +89,7 @@ void block_lash(Image& image, const glm::dvec2& root, const glm::dvec2& tip, dou
   }
 }
 
-/// One lid's: `side` is -1 for the upper, 1 for the lower.
+/// The lashes of one lid: `side` is -1 for the upper, 1 for the lower.
 void block_lashes(Image& image, Random& random, int count, double side, double length) {
   for (int i = 0; i < count; ++i) {
     const double across = -0.55 + 1.1 * (i + random.between(0.2, 0.8)) / count;

@@ -9,8 +9,8 @@ namespace catchlight::render {
 /// The diaphragm of a lens. Its corners lie on circle_aperture()'s rim.
 struct Diaphragm {
   int blades;
-  double curvature = 0.03;   ///< of a blade, relative to that rim's: 0 straight, 1 round
-  double rotation_deg = 10;  ///< of the first corner, from the right downwards
+  double curvature = 0.03;   ///< a blade's curvature, relative to that rim's: 0 straight, 1 round
+  double rotation_deg = 10;  ///< angle of the first corner, from the right downwards
 };
 Image diaphragm_aperture(const Diaphragm& diaphragm, int size_px);
 

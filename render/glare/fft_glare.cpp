@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kGateReach_px = 2;
 constexpr std::array<float, 2 * kGateReach_px + 1> kBinomial = {0.0625f, 0.25f, 0.375f, 0.25f, 0.0625f};
-/// A quarter of a code of 12 bits near black.
+/// The least light that shows: a quarter of a code of 12 bits near black.
 constexpr float kVisible = 0.25f / 4095 / 12.92f;
 constexpr float kBrightestPixel = 1e9f;
 
@@ -46,7 +46,7 @@ Gate around(const Image& peaks, int x, int y) {
   return gate;
 }
 
-/// GLSL's.
+/// GLSL's smoothstep().
 double smoothstep(double low, double high, double value) {
   const double t = std::clamp((value - low) / (high - low), 0.0, 1.0);
   return t * t * (3 - 2 * t);

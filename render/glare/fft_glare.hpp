@@ -36,7 +36,7 @@ class FftGlare {
   Image aperture_kernel(const CameraModel& camera, double focal_px) const;
 
   GlareSettings settings_;
-  std::optional<AperturePicture> picture_;  ///< none: the closed form
+  std::optional<AperturePicture> picture_;  ///< none: the kernel is glare_kernel()'s closed form
   std::unique_ptr<FftConvolution> convolution_;
   int width_px_ = 0, height_px_ = 0;
   double focal_px_ = 0;

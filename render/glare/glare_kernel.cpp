@@ -21,7 +21,7 @@ double smoothed_exponential(double u, double l, double sigma) {
   return 0.5 * l * std::exp(-u * u / (2 * sigma * sigma)) / (z * std::sqrt(glm::pi<double>())) * (1 - 0.5 / (z * z));
 }
 
-/// One axis of every Gaussian of the bloom, at each pixel.
+/// One axis of each Gaussian of the bloom, at each pixel.
 std::vector<std::array<double, kBloomGaussians>> bloom_axis(double frame_height_px, int size) {
   std::vector<std::array<double, kBloomGaussians>> axis(static_cast<std::size_t>(size));
   const auto gaussians = bloom_gaussians();

@@ -22,10 +22,10 @@ constexpr double kMinBlurOfNarrowest = 1.0;
 constexpr double kNegligibleBlur = 0.05;
 /// A streak's steps are at most so long: what is left after one is above exp(-0.6). Coarser steps show in its profile.
 constexpr double kLongestStep = 0.6;
-/// Light below this is not worth drawing: a quarter of an 8-bit sRGB code in black is 7.6e-5.
+/// The least light worth drawing: a quarter of an 8-bit sRGB code in black is 7.6e-5.
 constexpr double kInvisible = 2e-5;
 
-/// What going down to a level and up again blurs; texels squared of level 0.
+/// The variance that going down to a level and up again adds; texels squared of level 0.
 double pyramid_variance(int level) {
   double variance = 0;
   for (int k = 0; k < level; ++k) variance += std::exp2(2 * k) * (kDownVariance + 4 * (k == 0 ? kUpToGridVariance : kUpVariance));

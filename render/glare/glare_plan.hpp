@@ -29,19 +29,21 @@ GlareGrid make_glare_grid(int frame_width, int frame_height, int wanted_rows);
 
 /// Bloom is a sum of round Gaussians, each twice as wide as the one before: a narrow core with a long tail.
 struct BloomGaussian {
-  double weight;  ///< all together 1
+  double weight;  ///< all weights together are 1
   double sigma_heights;
 };
 inline constexpr int kBloomGaussians = 6;
 std::array<BloomGaussian, kBloomGaussians> bloom_gaussians();
 
-/// One of them as drawn: at level `level` of a pyramid whose levels halve the resolution, blurred there by gaussian_taps().
+/// One of these Gaussians as drawn: at level `level` of a pyramid whose levels halve the resolution, blurred there by
+/// gaussian_taps().
 struct BloomBlur {
   int level;
   double weight;
-  std::vector<double> taps;  ///< one: going down and up the pyramid blurs enough
+  std::vector<double> taps;  ///< a single one where going down and up the pyramid blurs enough
 };
-/// In the order of their levels. What going down and up the pyramid blurs is part of the stated width.
+/// The Gaussians of the bloom, in the order of their levels. What going down and up the pyramid blurs is part of the stated
+/// width.
 std::vector<BloomBlur> plan_bloom(double rows_per_height);
 
 /// Weights of a Gaussian that sum to 1 over both sides; at distance 0, 1, 2 ... One where there is nothing to blur.

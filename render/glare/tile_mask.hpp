@@ -8,14 +8,14 @@
 
 namespace catchlight::render {
 
-/// A mask has the tiles of a grid, row by row.
+/// The tiles of a grid, row by row, each marked or not.
 struct TileMask {
   int columns = 0, rows = 0;
   std::vector<std::uint8_t> marked;  ///< 1 or 0
 
-  /// With all tiles that lie within so many tiles of one.
+  /// The mask with all tiles marked that lie within so many tiles of a marked one.
   TileMask grown(int across, int down) const;
-  /// Disjoint rectangles, in tiles, of all that are marked.
+  /// Disjoint rectangles, in tiles, that hold all marked ones and no other.
   std::vector<PixelRect> rectangles() const;
 };
 

@@ -5,7 +5,7 @@
 
 namespace catchlight::render {
 
-/// In units of full scale (code 1, or 255 of 8 bits), over all pixels and channels.
+/// Differences in units of full scale (code 1, or 255 of 8 bits), over all pixels and channels.
 struct ImageDifference {
   double max_abs = 0;
   double mean_abs = 0;
@@ -14,8 +14,8 @@ struct ImageDifference {
   double ssim = 1;     ///< mean of structural_similarity_map()
 };
 
-/// Both 8-bit or 32-bit float (0..1), of the same size and channels; throws Error otherwise. NaN equals NaN and an infinity
-/// itself; any other pair with one of them is infinitely far apart.
+/// Compares pictures, both 8-bit or 32-bit float (0..1), of the same size and channels; throws Error otherwise. NaN equals NaN
+/// and an infinity itself; any other pair with one of them is infinitely far apart.
 ImageDifference image_difference(const cv::Mat& a, const cv::Mat& b);
 
 /// Structural similarity per pixel, mean over the channels, 32-bit float: Wang, Bovik, Sheikh & Simoncelli 2004 with their 11 x

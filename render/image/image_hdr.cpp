@@ -14,11 +14,11 @@
 namespace catchlight::render {
 namespace {
 
-constexpr int kMaxSide = 32767;  // of the run-length encoding
+constexpr int kMaxSide = 32767;  // longest line of the run-length encoding
 using Rgbe = std::array<std::uint8_t, 4>;
 
 struct Header {
-  int first_count = 0, second_count = 0;  ///< as the resolution line names them
+  int first_count = 0, second_count = 0;  ///< the sizes in the resolution line's order
   char first_axis = 'Y', second_axis = 'X';
   bool first_positive = false, second_positive = true;
   double exposure = 1.0;

@@ -16,11 +16,11 @@ struct ExrPicture {
   std::optional<ExrEnvmap> envmap;
 };
 
-/// The data window of the first part, colours converted to Rec. 709 where the file names other primaries (white point adapted by
-/// Bradford's method). Throws Error naming the file: unreadable, damaged, no R G B or Y, subsampled, over 2^29 texels.
+/// Reads the data window of the first part, colours converted to Rec. 709 where the file names other primaries (white point
+/// adapted by Bradford's method). Throws Error naming the file: unreadable, damaged, no R G B or Y, subsampled, over 2^29 texels.
 ExrPicture read_exr_picture(const std::string& path);
 
-/// The image alone.
+/// Reads the image alone.
 Image read_exr(const std::string& path);
 
 /// One group of channels: channel k of `image` is written as `channels[k]`, or `name.channels[k]` where `name` is not empty.
@@ -31,15 +31,15 @@ struct ExrLayer {
   bool as_float = false;  ///< 32 bits (depth, positions); else half, with values beyond +-65504 held there
 };
 
-/// All layers have one size. The file is a PendingFile until it is whole; ZIP; attribute chromaticities = Rec. 709.
+/// Writes layers, all of one size. The file is a PendingFile until it is whole; ZIP; attribute chromaticities = Rec. 709.
 /// Throws Error naming the file where it cannot be written.
 void write_exr(const std::string& path, const std::vector<ExrLayer>& layers, std::optional<ExrEnvmap> envmap = {});
 
-/// Radiance .hdr (RGBE), any of the eight orientations, with its EXPOSURE lines divided out. Throws Error naming the file.
+/// Reads Radiance .hdr (RGBE), any of the eight orientations, with its EXPOSURE lines divided out. Throws Error naming the file.
 Image read_hdr(const std::string& path);
 
-/// Relative error up to 1/256 of the brightest channel; negative values become 0. The file is a PendingFile until it is whole.
-/// Throws Error.
+/// Writes Radiance .hdr: relative error up to 1/256 of the brightest channel; negative values become 0. The file is a PendingFile
+/// until it is whole. Throws Error.
 void write_hdr(const std::string& path, const Image& image);
 
 }  // namespace catchlight::render

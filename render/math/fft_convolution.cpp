@@ -21,7 +21,7 @@ cv::Mat as_mat(Image& plane) {
   return cv::Mat(plane.height, plane.width, CV_32FC1, plane.data.data());
 }
 
-/// mulSpectrums() only reads it.
+/// The same for a plane that mulSpectrums() only reads.
 cv::Mat as_mat(const Image& plane) {
   return cv::Mat(plane.height, plane.width, CV_32FC1, const_cast<float*>(plane.data.data()));
 }

@@ -18,8 +18,9 @@ class FftConvolution {
   /// large reaches nothing and is left out. Throws Error: kernel or image empty, not 3 channels, a kernel with NaN or Inf.
   FftConvolution(const Image& kernel, int image_width, int image_height);
 
-  /// Of the size and channels that the object was made for, else Error. NaN and Inf in the image count as 0 and what is beyond
-  /// +-1e20 is held there, so that one bad pixel does not spread over all. Deterministic, whatever the number of threads.
+  /// The convolution of an image of the size and channels that the object was made for (else Error). NaN and Inf in it count as 0
+  /// and what is beyond +-1e20 is held there, so that one bad pixel does not spread over all. Deterministic, whatever the
+  /// number of threads.
   Image convolve(const Image& image) const;
 
   int transform_width() const { return spectra_[0].width; }
@@ -27,8 +28,7 @@ class FftConvolution {
 
  private:
   int width_, height_;
-  std::array<Image, 3>
-      spectra_;  ///< by channel; OpenCV's packed form of a real image's spectrum, divided by its number of pixels
+  std::array<Image, 3> spectra_;  ///< the kernel's, by channel, in OpenCV's packed form, divided by the number of pixels
 };
 
 }  // namespace catchlight::render

@@ -6,14 +6,14 @@
 
 namespace catchlight::render {
 
-/// Mixes all bits of x (a permutation of 32-bit numbers: Wellons' "lowbias32").
+/// x with all its bits mixed (a permutation of 32-bit numbers: Wellons' "lowbias32").
 std::uint32_t mix_bits(std::uint32_t x);
 
 /// Owen's nested scrambling of x read as a binary fraction, highest bit first: aligned blocks of 2^k numbers stay blocks,
 /// shuffled (Laine & Karras 2011 with the constants of Burley, "Practical Hash-based Owen Scrambling", JCGT 2020).
 std::uint32_t owen_scrambled(std::uint32_t x, std::uint32_t seed);
 
-/// Same bits, same seed: the rays of vertices doubled along a seam are alike.
+/// A seed that follows from the bits alone: the rays of vertices doubled along a seam are alike.
 std::uint32_t seed_of(const glm::vec3& position, const glm::vec3& normal, std::uint32_t seed);
 
 /// Point k of Sobol's sequence in the unit square, Owen-scrambled by `seed` (Burley, "Practical Hash-based Owen Scrambling", JCGT

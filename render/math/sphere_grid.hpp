@@ -24,7 +24,7 @@ class SphereGrid {
   void add_overlapping(int ring, double from, double to, std::vector<int>& cells) const;
 
   int rings_;
-  std::vector<int> first_;  // cell of each ring; the number of cells at the end
+  std::vector<int> first_;  // first cell of each ring; the number of cells at the end
 };
 
 }  // namespace catchlight::render

@@ -1,7 +1,7 @@
 // Parts of the glTF reader: accessors as plain arrays, materials with their base colour textures.
 #pragma once
 
-// As tiny_gltf.cpp has it: pictures are decoded elsewhere.
+// The same as in tiny_gltf.cpp: pictures are decoded elsewhere.
 #define TINYGLTF_NO_STB_IMAGE
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #include <tiny_gltf.h>
@@ -24,7 +24,7 @@ struct Document {
 /// with 3 components drops the fourth. Throws Error for anything out of range.
 std::vector<float> read_floats(const Document& document, int accessor, int components);
 
-/// Unsigned integers, as of indices. Throws Error for other component types and anything out of range.
+/// Unsigned integers, such as indices. Throws Error for other component types and anything out of range.
 std::vector<std::uint32_t> read_indices(const Document& document, int accessor);
 
 /// The bytes of a buffer view, checked to lie within its buffer.
@@ -34,7 +34,7 @@ std::span<const unsigned char> bytes_of(const Document& document, int buffer_vie
 bool keep_image_bytes(tinygltf::Image* image, int index, std::string* error, std::string* warning, int width, int height,
                       const unsigned char* bytes, int size, void* user);
 
-/// Factors only, extensions specular, ior and emissive_strength included.
+/// The material's factors only, extensions specular, ior and emissive_strength included.
 Material material_of(const tinygltf::Material& source);
 
 /// A base colour texture, ready to be looked up at texture coordinates.
@@ -47,7 +47,7 @@ struct ColorTexture {
   glm::vec3 operator()(const glm::dvec2& uv) const;
 };
 
-/// Empty where the material has none. Throws Error where the picture cannot be decoded.
+/// The material's base colour texture; empty where it has none. Throws Error where the picture cannot be decoded.
 std::optional<ColorTexture> base_color_texture(const Document& document, const tinygltf::Material& material);
 
 }  // namespace catchlight::render::gltf

@@ -8,7 +8,7 @@
 
 namespace catchlight::render {
 
-/// glTF 2.0 metallic-roughness. Colours are linear Rec. 709.
+/// A material of glTF 2.0's metallic-roughness model. Colours are linear Rec. 709.
 struct Material {
   std::string name;
   glm::vec3 base_color{0.8f};
@@ -16,7 +16,7 @@ struct Material {
   float roughness = 1.0f;       ///< perceptual; alpha = roughness^2
   float dielectric_f0 = 0.04f;  ///< ((ior-1)/(ior+1))^2 * KHR_materials_specular.specularFactor
   glm::vec3 emissive{0.0f};     ///< radiance
-  glm::vec3 unlit_color{0.0f};  ///< with Vertex::color the exposed linear value that is added, whatever light and exposure are
+  glm::vec3 unlit_color{0.0f};  ///< times Vertex::color: the exposed linear value that is added, whatever light and exposure are
 };
 
 struct Vertex {
@@ -33,8 +33,8 @@ struct Mesh {
   std::vector<Material> materials;
 };
 
-/// p -> linear part * p + translation; normals by the inverse transpose. `tag_from_object` is 3 rows of 4. Throws Error where
-/// singular.
+/// Moves positions p to linear part * p + translation; normals by the inverse transpose. `tag_from_object` is 3 rows of 4. Throws
+/// Error where singular.
 Mesh transformed(const Mesh& mesh, const glm::dmat4& tag_from_object);
 
 /// Appends `other`; materials are kept apart.

@@ -73,7 +73,7 @@ void make_missing_normals(Mesh& mesh) {
     const auto found = normal_at.find(vertex.position_m);
     const bool known = found != normal_at.end() && glm::length(found->second) > 0;
     vertex.normal =
-        known ? glm::vec3(glm::normalize(found->second)) : glm::vec3(0, 0, 1);  // of an unused vertex or a folded sheet: any
+        known ? glm::vec3(glm::normalize(found->second)) : glm::vec3(0, 0, 1);  // unused vertices and folded sheets: any
   }
 }
 

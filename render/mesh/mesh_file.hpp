@@ -8,10 +8,10 @@
 
 namespace catchlight::render {
 
-/// glTF 2.0 (.glb, .gltf) with node transforms applied; OBJ and PLY. Units are metres. Makes normals where the file has none
-/// (area and angle weighted, smooth). Base colour textures and vertex colours end up in Vertex::color, so albedo varies as finely
-/// as the vertices. Triangles without area are left out with a warning. Throws Error naming the file: unreadable, no triangles,
-/// non-finite positions, indices out of range, an unknown required extension.
+/// Reads glTF 2.0 (.glb, .gltf) with node transforms applied, OBJ and PLY. Units are metres. Makes normals where the file has
+/// none (area and angle weighted, smooth). Base colour textures and vertex colours end up in Vertex::color, so albedo varies as
+/// finely as the vertices. Triangles without area are left out with a warning. Throws Error naming the file: unreadable, no
+/// triangles, non-finite positions, indices out of range, an unknown required extension.
 Mesh load_mesh(const std::string& path, const WarningHandler& warn);
 
 }  // namespace catchlight::render

@@ -6,10 +6,10 @@
 
 namespace catchlight::render {
 
-/// glTF 2.0, text or binary.
+/// Reads glTF 2.0, text or binary.
 Mesh import_gltf(const std::string& path, const WarningHandler& warn);
 
-/// OBJ and PLY.
+/// Reads OBJ and PLY.
 Mesh import_with_assimp(const std::string& path);
 
 }  // namespace catchlight::render

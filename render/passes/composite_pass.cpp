@@ -49,7 +49,7 @@ int mode_of(const PlateColor& color) {
   throw Error("unknown transfer function");
 }
 
-/// As CompositeUniforms has it.
+/// Vignetting in the form of CompositeUniforms.
 struct Vignetting {
   glm::vec4 terms{0, 0, 0, 1}, at{0};
 };

@@ -37,13 +37,14 @@ class CompositePass {
   void draw_plate_light(const FrameView& view);
   const GlTexture& plate_light() const { return plate_light_; }
 
-  /// Over `rect`, which the uploaded plate holds. `as_light`: linear instead of codes, for the tone curve to go on from.
+  /// Draws the composite over `rect`, which the uploaded plate holds. `as_light`: linear instead of codes, for the tone curve to
+  /// go on from.
   void draw(const FrameView& view, const PixelRect& rect, const VirtualLayer& layer, bool with_layers, bool as_light = false);
 
-  /// What was last drawn without layers: `rect` in the first texels.
+  /// The last draw without layers: `rect` in the first texels.
   const GlTexture& drawn() const { return output_->texture(); }
 
-  /// Codes and change flags, RGBA.
+  /// The last draw's codes and change flags, RGBA.
   std::vector<float> read() const;
 
   /// Plate, object, shadow and glare of the last draw with layers.

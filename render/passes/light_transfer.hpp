@@ -16,7 +16,8 @@ class LightTransfer {
  public:
   explicit LightTransfer(ShaderLibrary& shaders) : capture_("transfer.vert", "transferred", shaders) {}
 
-  /// At most MAX_LIGHT_COEFFICIENTS. `split_off` is the part of them whose direct way is left to shadow maps: as many, or none.
+  /// Sets the light's coefficients, at most MAX_LIGHT_COEFFICIENTS. `split_off` is the part of them whose direct way is left to
+  /// shadow maps: as many, or none.
   void set_light(const ShRgb& light_linear, const ShRgb& split_off = {});
   int coefficients() const { return coefficients_; }
 
@@ -36,11 +37,11 @@ class LitPoints {
   /// many, or none where no light is ever split off.
   LitPoints(const std::string& label, std::span<const glm::vec3> transfer, std::span<const glm::vec3> direct, int coefficients);
 
-  /// Sum of light times transfer per point less what lights that are split off send directly, >= 0.
+  /// Finds the sum of light times transfer per point less what lights that are split off send directly, >= 0.
   void evaluate(const LightTransfer& light);
 
   int count() const { return count_; }
-  /// count() times 3 floats.
+  /// The buffer of what evaluate() found: count() times 3 floats.
   GLuint radiance() const { return radiance_.id(); }
 
  private:

@@ -12,7 +12,7 @@
 namespace catchlight::render {
 namespace {
 
-/// Triangle numbers grouped by material.
+/// The triangles' numbers grouped by material.
 std::vector<std::size_t> triangles_by_material(const Mesh& mesh) {
   std::vector<std::size_t> order(mesh.triangle_material.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

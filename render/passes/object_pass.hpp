@@ -21,18 +21,18 @@ class ObjectPass {
   ObjectPass(const Mesh& mesh, LitPoints vertices_lit, const ReflectionMap& reflections, const ReflectionMap& rest,
              ShaderLibrary& shaders);
 
-  /// The object's exit radiance under `light`; needed again whenever the light turns. `lights` must be up to date.
+  /// Finds the object's exit radiance under `light`; needed again whenever the light turns. `lights` must be up to date.
   void light_by(const LightTransfer& light, const ShadowedLights& lights);
 
-  /// All triangles, with any program.
+  /// Draws all triangles, with the program in use.
   void draw_geometry() const;
 
-  /// Some material mirrors anything.
+  /// Whether some material mirrors anything.
   bool reflects() const { return reflects_; }
-  /// Some material emits light.
+  /// Whether some material emits light.
   bool emits() const { return emits_; }
 
-  /// Into `target`, of which `rect` (pixels of a frame of that size) is drawn. Needs the ViewUniforms bound, and where their
+  /// Draws into `target`, which holds `rect` (pixels of a frame of that size). Needs the ViewUniforms bound, and where their
   /// options say so the receiver (ReceiverPass::bind) and the plate's light; always the lights (ShadowedLights::bind).
   void draw(const ObjectTarget& target, const PixelRect& rect, int frame_width, int frame_height) const;
 

@@ -8,7 +8,7 @@
 namespace catchlight::render {
 namespace {
 
-constexpr float kFarthestShadow = 16;  ///< in sizes of the object
+constexpr float kFarthestShadow = 16;  ///< distance in sizes of the object
 /// Texels of the lights' texture across the object, and at most along a side.
 constexpr float kTexelsAcrossObject = 192;
 constexpr int kMinTexels = 16, kMaxTexels = 1024;

@@ -17,8 +17,8 @@
 
 namespace catchlight::render {
 
-/// Where samples that shine from above the plane may cast the shadow of what lies in the box (tag frame), no farther away than 16
-/// times its size. Empty (min beyond max) without any.
+/// The part of the plane onto which samples that shine from above it may cast the shadow of what lies in the box (tag frame), no
+/// farther away than 16 times its size. Empty (min beyond max) without any.
 PlaneRect shadow_reach(std::span<const LightSample> samples_tag, const Bounds& box);
 
 class ReceiverPass {
@@ -26,17 +26,17 @@ class ReceiverPass {
   /// `transfer` must have a grid of at least 2 x 2 points.
   ReceiverPass(const Transfer& transfer, ShaderLibrary& shaders);
 
-  /// The plane's irradiance under `light`, which `transfer` holds too; needed again whenever the light turns. `lights` casts the
-  /// shadows of what lies in the box.
+  /// Finds the plane's irradiance under `light`, which `transfer` holds too; needed again whenever the light turns. `lights`
+  /// casts the shadows of what lies in the box.
   void light_by(const LightTransfer& transfer, const SplitLight& light, const ShadowedLights& lights, const Bounds& box);
 
-  /// What may be in shadow.
+  /// The part of the plane that may be in shadow.
   const PlaneRect& reach() const { return reach_; }
 
-  /// For shaders that include receiver.glsl.
+  /// Binds what shaders need that include receiver.glsl.
   void bind() const;
 
-  /// Ratios within `rect` (pixels of a frame of that size) into `target`, 1 beside the reach. Needs the ViewUniforms bound.
+  /// Draws ratios within `rect` (pixels of a frame of that size) into `target`, 1 beside the reach. Needs the ViewUniforms bound.
   void draw(const ColorTarget<1>& target, const PixelRect& rect, int frame_width, int frame_height) const;
 
  private:

@@ -9,9 +9,9 @@
 namespace catchlight::render {
 namespace {
 
-/// All maps together hold this many texels, of 16 bits: those of 96 maps of 512 x 512.
+/// Texels of all maps together, of 16 bits: those of 96 maps of 512 x 512.
 constexpr int kTexelBudget = 96 * 512 * 512;
-constexpr int kMaxTexels = 2048;  ///< along a map's side
+constexpr int kMaxTexels = 2048;  ///< texels along a map's side
 
 /// What lies deeper than a texel's middle by its own slope is still the same surface.
 constexpr float kSlopeBias = 1.5f, kDepthBias = 2.0f;

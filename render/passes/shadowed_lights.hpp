@@ -15,7 +15,8 @@ namespace catchlight::render {
 
 class ShadowedLights {
  public:
-  /// For `samples` of them, at most MAX_LIGHT_SAMPLES; none is possible too. All that casts shadows is in the box (tag frame).
+  /// Makes room for `samples` samples, at most MAX_LIGHT_SAMPLES; none is possible too. All that casts shadows is in the box (tag
+  /// frame).
   ShadowedLights(int samples, const Bounds& object, ShaderLibrary& shaders);
 
   /// Takes over the samples (tag frame; as many as said) and draws their maps; `draw_object` draws all triangles with their
@@ -23,12 +24,12 @@ class ShadowedLights {
   void update(std::span<const LightSample> samples_tag, const std::function<void()>& draw_object);
 
   int count() const { return count_; }
-  /// For shaders that include lights.glsl.
+  /// Binds what shaders need that include lights.glsl.
   void bind() const;
 
  private:
   int count_;
-  glm::vec3 middle_m_;  ///< of the sphere around the box
+  glm::vec3 middle_m_;  ///< middle of the sphere around the box
   float radius_m_;
   int map_texels_;
   Program& program_;

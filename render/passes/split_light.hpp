@@ -12,8 +12,8 @@ namespace catchlight::render {
 
 /// All of the light, and what of it comes from the lights that are split off.
 struct SplitLight {
-  ShRgb whole, split_off;            ///< the second is the samples' part of the first; empty without samples
-  std::vector<LightSample> samples;  ///< as the shadow maps have them
+  ShRgb whole, split_off;            ///< all of it, and the samples' part of it; the latter is empty without samples
+  std::vector<LightSample> samples;  ///< the samples that have shadow maps
 };
 
 SplitLight split_light(const RenderScene& scene);

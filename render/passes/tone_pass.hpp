@@ -1,4 +1,4 @@
-// From the composite's linear light to codes: metering, tone curve, the footage's response. Over the whole frame.
+// Makes codes of the composite's linear light: metering, tone curve, the footage's response, over the whole frame.
 #pragma once
 
 #include <memory>
@@ -35,16 +35,16 @@ class TonePass {
  public:
   TonePass(const CompositorSettings& settings, ShaderLibrary& shaders);
 
-  /// What the composite (linear light, frame in its first texels) calls for.
+  /// The curve that the composite (linear light, frame in its first texels) calls for.
   ToneCurve meter(const GlTexture& light, int width, int height, const PlateColor& color);
 
-  /// Bloom and streaks of the classic look, where it is chosen.
+  /// Draws bloom and streaks of the classic look, where it is chosen.
   void draw_glare(const GlTexture& light, int width, int height);
 
-  /// Codes by the response of the CompositeUniforms that are bound.
+  /// Draws codes by the response of the CompositeUniforms that are bound.
   void draw(const GlTexture& light, int width, int height, const PlateColor& color, const ToneCurve& curve);
 
-  /// RGBA of the last draw; alpha is 1.
+  /// The last draw's codes, RGBA; alpha is 1.
   std::vector<float> read() const;
 
  private:

@@ -20,7 +20,7 @@ class Watershed {
   }
   bool is_flooded(int cell) const { return parent_[cell] != kNoCluster; }
 
-  // Cells come from bright to dim.
+  // Adds the next cell; cells come from bright to dim.
   void flood(int cell, double light, const std::vector<int>& neighbours) {
     parent_[cell] = cell;
     light_[cell] = light;
@@ -34,7 +34,7 @@ class Watershed {
   }
 
  private:
-  // The brighter one's peak, whether or not the other has become part of it.
+  // The brighter of two peaks, whether or not the other becomes part of it.
   int meet(int a, int b, double saddle) {
     if (luminance_[a] < luminance_[b] || (luminance_[a] == luminance_[b] && a > b)) std::swap(a, b);
     if (luminance_[b] < kPeakOverSaddle * saddle || std::min(light_[a], light_[b]) < negligible_) join(a, b);
@@ -48,7 +48,7 @@ class Watershed {
   const std::vector<double>& luminance_;
   double negligible_;
   std::vector<int> parent_;
-  std::vector<double> light_;  // of a peak: its cluster's, above the threshold
+  std::vector<double> light_;  // luminance times solid angle above the threshold, of the cluster that a peak stands for
 };
 
 }  // namespace

@@ -13,14 +13,14 @@ double luminance_of(const LightPiece& piece) {
   return glm::dot(kLuminanceWeights, piece.irradiance);
 }
 
-// Middle of the flux. Pieces opposite each other have none: the first one's direction then.
+// The middle of the flux. Pieces opposite each other have none: the first one's direction then.
 glm::dvec3 middle_of(std::span<const LightPiece> region) {
   glm::dvec3 sum(0);
   for (const LightPiece& piece : region) sum += luminance_of(piece) * piece.direction;
   return glm::length(sum) > 0 ? glm::normalize(sum) : region.front().direction;
 }
 
-// Mean of (direction - middle)^2 along each axis of the frame.
+// The mean of (direction - middle)^2 along each axis of the frame.
 glm::dvec3 variance(std::span<const LightPiece> region, const glm::dvec3& middle) {
   glm::dvec3 sum(0);
   double weight = 0;

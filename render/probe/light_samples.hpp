@@ -12,7 +12,7 @@ namespace catchlight::render {
 /// A part of a light small enough to count as one direction: what one shadow map is drawn for.
 struct LightSample {
   glm::dvec3 direction;   ///< towards the light, length 1: the middle of its flux
-  glm::dvec3 irradiance;  ///< on a surface that faces it: the integral of radiance over its solid angle
+  glm::dvec3 irradiance;  ///< irradiance on a surface that faces it: the integral of radiance over its solid angle
   double spread_rad = 0;  ///< root mean square angle of its light from `direction`, along one axis
   bool compact = true;    ///< part of a lamp rather than of the sky: a highlight on rough surfaces
 };
@@ -28,7 +28,7 @@ struct LightPiece {
 /// SIGGRAPH 2005 posters) along the longer side of each region. Needs a piece; the order of the pieces is lost.
 std::vector<LightSample> median_cut(std::vector<LightPiece> pieces, int count);
 
-/// Their light: sum of irradiance * y_i(direction).
+/// The samples' light as coefficients: sum of irradiance * y_i(direction).
 ShRgb project_to_sh(std::span<const LightSample> samples, int bands);
 
 }  // namespace catchlight::render

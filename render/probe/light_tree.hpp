@@ -23,7 +23,7 @@ class LightTree {
   struct Node {
     glm::vec3 flux{0};  ///< radiance * solid angle
     float solid_angle_sr = 0;
-    glm::vec3 middle{0};  ///< of its directions
+    glm::vec3 middle{0};  ///< mean of the directions in it
     float size_rad = 0;
     glm::vec3 middle_of_light{0};
   };

@@ -20,8 +20,7 @@ struct ReflectionMap {
 ReflectionMap prefilter_reflections(const Probe& probe, const glm::dmat3& tag_from_probe, int face_size = 0);
 
 /// Scale and bias of F0 by (n.v, perceptual roughness) for GGX with height-correlated Smith: size x size, 2 channels, texel
-/// centres at
-/// ((i + 0.5) / size).
+/// centres at (i + 0.5) / size.
 Image environment_brdf_table(int size);
 
 }  // namespace catchlight::render

@@ -22,7 +22,7 @@ struct Probe {
 /// Bilinear radiance in `direction`, continuous across the layout's seams.
 glm::vec3 sample(const Probe& probe, const glm::dvec3& direction);
 
-/// Same light in another layout, averaged over each texel. `width` 0 keeps the angular resolution at the equator.
+/// The same light in another layout, averaged over each texel. `width` 0 keeps the angular resolution at the equator.
 Probe convert(const Probe& probe, ProbeLayout layout, int width = 0);
 
 /// Texels that look in one direction (a pole's row, both columns of +-180 degrees, borders of OpenEXR's cube faces) get their

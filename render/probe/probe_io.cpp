@@ -14,7 +14,7 @@ namespace {
 
 enum class FileKind { exr, hdr, display, unknown };
 
-// By the first bytes, as names lie.
+// The kind of a file by its first bytes, as names lie.
 FileKind kind_of(const std::string& path) {
   std::error_code failed;
   if (std::filesystem::is_directory(path, failed)) throw Error(path + ": is a folder, expected an OpenEXR or Radiance HDR file");

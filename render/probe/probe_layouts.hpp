@@ -34,7 +34,7 @@ ProbeLayout probe_layout_from_name(const std::string& name);
 /// valid area.
 std::optional<glm::dvec3> direction_from_texel(ProbeLayout layout, int width, int height, double x, double y);
 
-/// Inverse of direction_from_texel; finite for every direction, the poles and -z of the angular map included.
+/// The inverse of direction_from_texel; finite for every direction, the poles and -z of the angular map included.
 glm::dvec2 texel_from_direction(ProbeLayout layout, int width, int height, const glm::dvec3& direction);
 
 /// Exact solid angle (sr) of texel (x, y), 0 outside the layout's valid area; they sum to 4 pi (mirror ball: less by its blind
@@ -48,10 +48,10 @@ struct CubeFace {
   int column, row;  ///< place in the image, in faces
 };
 
-/// Order +x -x +y -y +z -z.
+/// The six faces in the order +x -x +y -y +z -z.
 using CubeFaces = std::array<CubeFace, 6>;
 
-/// OpenGL's orientation (OpenGL 4.5 core, table 8.19), stacked.
+/// The faces in OpenGL's orientation (OpenGL 4.5 core, table 8.19), stacked.
 const CubeFaces& gl_cube_faces();
 
 /// The faces of ProbeLayout::cube or cube_cross.

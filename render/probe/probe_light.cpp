@@ -1,4 +1,4 @@
-// What a probe does as a whole: sums over all its texels.
+// A probe's light as a whole: sums over all its texels.
 #include <algorithm>
 #include <vector>
 

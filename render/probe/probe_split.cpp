@@ -28,7 +28,7 @@ double luminance_of(const float* radiance) {
 // Luminance gathered in cells.
 struct Brightness {
   SphereGrid grid;
-  std::vector<int> cell_of;  // a texel; kNoCluster outside the layout
+  std::vector<int> cell_of;  // the cell of each texel; kNoCluster outside the layout
   std::vector<double> solid_angle_sr, luminance;
 };
 
@@ -189,7 +189,7 @@ void cut_down(const Cluster& cluster, double threshold, Probe& probe) {
   }
 }
 
-// Of the texel's light above the threshold.
+// Luminance times solid angle of the texel's light above the threshold.
 double flux_above(const Probe& probe, const glm::ivec2& texel, double threshold) {
   return (luminance_of(probe.image.pixel(texel.x, texel.y)) - threshold) *
          texel_solid_angle(probe.layout, probe.image.width, probe.image.height, texel.x, texel.y);

@@ -12,8 +12,8 @@ namespace catchlight::render {
 
 /// One light of the place: a lamp, a window, the sun.
 struct ProbeLight {
-  glm::dvec3 direction;   ///< as of the samples
-  glm::dvec3 irradiance;  ///< sum of the samples'
+  glm::dvec3 direction;   ///< towards the light, length 1: the middle of its flux
+  glm::dvec3 irradiance;  ///< sum over the samples
   double solid_angle_sr = 0;
   bool compact = false;  ///< no sample is wider than kCompactSpread_rad: together they draw the light's shape on a rough surface
   double share = 0;      ///< what a surface facing it would lose in its shadow, of an average surface's luminance; may exceed 1
@@ -28,12 +28,12 @@ struct SplitProbe {
 };
 
 struct SplitOptions {
-  int bands = 5;             ///< that the rest will be projected to: light that these hold well is not split off
+  int bands = 5;             ///< bands that the rest will be projected to: light that these hold well is not split off
   double tolerance = 0.004;  ///< visible error allowed, as a share of white
-  int max_samples = 96;      ///< of all lights together; 0: no lights
+  int max_samples = 96;      ///< samples of all lights together, at most; 0: no lights
 };
 
-/// Brighter than kLightContrast times the mean of what the split leaves makes a light (a fixed point; suns do not hide lamps).
+/// What is brighter than kLightContrast times the mean of what the split leaves is a light (a fixed point; suns hide no lamps).
 /// Peaks are told apart by watershed (light_clusters.hpp), and split off only where a shadow of the light that the bands cannot
 /// hold would be visible. A black probe, or one without contrast, has no lights.
 inline constexpr double kLightContrast = 5;

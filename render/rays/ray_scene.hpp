@@ -21,7 +21,7 @@ class RayScene {
   explicit RayScene(const Mesh& mesh);
   ~RayScene();
 
-  /// Anything at all, on either side of its faces, along the ray to infinity.
+  /// Whether the ray meets anything at all, on either side of its faces.
   bool occluded(const glm::vec3& origin_m, const glm::vec3& direction) const;
   std::optional<RayHit> closest_hit(const glm::vec3& origin_m, const glm::vec3& direction) const;
 

@@ -18,7 +18,7 @@ constexpr unsigned kLeafTriangles = 4;
 struct BuildNode {
   BuildNode* children[2] = {};
   std::uint32_t primitives[kLeafTriangles] = {};
-  unsigned count = 0;  ///< of a leaf
+  unsigned count = 0;  ///< primitives of a leaf; 0: an inner node
 };
 
 BuildNode* make_node(RTCThreadLocalAllocator allocator) {
@@ -42,7 +42,7 @@ void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* pr
   return leaf;
 }
 
-/// Depth first; boxes are taken from the triangles themselves.
+/// Appends the node and all below it, depth first. Boxes are taken from the triangles themselves.
 Bounds flatten(const BuildNode& node, const Mesh& mesh, SkipBvh& bvh) {
   const std::size_t index = bvh.nodes.size();
   bvh.nodes.emplace_back();

@@ -10,7 +10,7 @@
 
 namespace catchlight::render {
 
-/// As the shader reads it (std430): two vec4 a node.
+/// A node as the shader reads it (std430): two vec4.
 struct SkipNode {
   glm::vec3 min_m;
   std::uint32_t triangles;  ///< first * 8 + count in SkipBvh::triangles; count 0: an inner node, whose first child comes next

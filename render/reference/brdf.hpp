@@ -31,7 +31,7 @@ class Brdf {
   glm::dvec3 sample_glossy(const glm::dvec3& v, const glm::dvec2& square) const;
   double glossy_density(const glm::dvec3& v, const glm::dvec3& l) const;
 
-  /// About the share of reflected light that is glossy, 0 to 1: how often to follow it.
+  /// Roughly the share of reflected light that is glossy, 0 to 1: how often to follow it.
   double glossy_share(const glm::dvec3& v) const;
 
  private:

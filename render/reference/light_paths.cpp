@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// Of the mesh's size: a hundred times the rounding of its coordinates.
+// Share of the mesh's size by which rays start above a surface: a hundred times the rounding of its coordinates.
 constexpr double kLift = 1e-5;
 
 double lift_for(const Mesh& mesh) {
@@ -24,13 +24,13 @@ double lift_for(const Mesh& mesh) {
   return mesh.vertices.empty() ? kLift : kLift * glm::distance(glm::dvec3(low), glm::dvec3(high));
 }
 
-// Columns x, y, z with z along n (Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017).
+// The matrix of columns x, y, z with z along n (Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017).
 glm::dmat3 frame_around(const glm::dvec3& n) {
   const double sign = std::copysign(1.0, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
   return {{1 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
 }
 
-// Density cos / pi: a uniform point of the disc, lifted to the sphere.
+// A direction of density cos / pi: a uniform point of the disc, lifted to the sphere.
 glm::dvec3 cosine_direction(const glm::dvec2& square) {
   const double radius = std::sqrt(square.x), phi = 2 * kPi * square.y;
   return {radius * std::cos(phi), radius * std::sin(phi), std::sqrt(std::max(0.0, 1 - square.x))};
@@ -94,7 +94,7 @@ LightPaths::Meeting LightPaths::meet(const glm::dvec3& origin_m, const glm::dvec
   }
   if (!scene_.has_receiver) return nearest;
   const bool is_above = origin_m.z > -2 * lift_m_;
-  if (!is_above) return {Met::underground, {}, {}};  // under the table it is dark
+  if (!is_above) return {Met::below_receiver, {}, {}};  // where it is dark
   if (direction.z < 0 && -origin_m.z / direction.z < distance_m) {
     const double to_plane_m = std::max(0.0, -origin_m.z / direction.z);
     return {Met::receiver, {origin_m.x + to_plane_m * direction.x, origin_m.y + to_plane_m * direction.y, 0}, {}};
@@ -102,7 +102,7 @@ LightPaths::Meeting LightPaths::meet(const glm::dvec3& origin_m, const glm::dvec
   return nearest;
 }
 
-// On the way to the sky.
+// Whether something blocks the way to the sky.
 bool LightPaths::blocked(const glm::dvec3& origin_m, const glm::dvec3& direction) const {
   if (scene_.has_receiver && origin_m.z < -2 * lift_m_) return true;
   return rays_ && rays_->occluded(origin_m, direction);
@@ -139,7 +139,7 @@ glm::dvec3 LightPaths::receiver_radiance(const glm::dvec3& point_m) const {
 void LightPaths::follow(Path& path, PointStream& points) const {
   for (;; ++path.reflections) {
     const Meeting meeting = meet(path.origin_m, path.direction);
-    if (meeting.what == Met::back_of_object || meeting.what == Met::underground) return;
+    if (meeting.what == Met::back_of_object || meeting.what == Met::below_receiver) return;
     if (meeting.what == Met::sky) {
       const double weight = path.density > 0 ? balance(path.density, light_.density(path.direction)) : 1.0;
       path.sum += path.throughput * weight * light_.radiance(path.direction);
@@ -221,7 +221,7 @@ bool LightPaths::scatter_on_receiver(Path& path, const glm::dvec3& point_m, cons
 Seen LightPaths::look(const glm::dvec3& origin_m, const glm::dvec3& direction, PointStream points) const {
   const Meeting meeting = meet(origin_m, direction);
   if (meeting.what == Met::receiver) return {glm::dvec3(0), receiver_ratio(meeting.position_m, points)};
-  if (meeting.what == Met::sky || meeting.what == Met::underground) return {glm::dvec3(0), glm::dvec3(1)};
+  if (meeting.what == Met::sky || meeting.what == Met::below_receiver) return {glm::dvec3(0), glm::dvec3(1)};
   Path path{origin_m, direction};
   follow(path, points);
   return {path.sum, glm::dvec3(0)};

@@ -45,7 +45,7 @@ class LightPaths {
  private:
   struct Path;
   struct Surface;
-  enum class Met { sky, object, back_of_object, receiver, underground };
+  enum class Met { sky, object, back_of_object, receiver, below_receiver };
   struct Meeting {
     Met what = Met::sky;
     glm::dvec3 position_m{0};
@@ -64,9 +64,9 @@ class LightPaths {
 
   const ReferenceScene& scene_;
   int bounces_;
-  double lift_m_;  ///< above a surface, where its rays start
+  double lift_m_;  ///< height above a surface at which its rays start
   ProbeSampler light_;
-  glm::dvec3 one_over_irradiance_{0};  ///< on the receiver without the object; 0 in channels without light
+  glm::dvec3 one_over_irradiance_{0};  ///< 1 / irradiance on the receiver without the object; 0 in channels without light
   std::unique_ptr<RayScene> rays_;     ///< none where the mesh is empty
   std::optional<CameraRays> frame_rays_;
 };

@@ -50,7 +50,7 @@ class PathTracer {
   LightPaths paths_;
 };
 
-/// The mesh's vertices as Lambertian points of their diffuse albedo (black where metal); a vertex that several materials share
+/// The mesh's vertices as Lambertian points with their diffuse albedo (black where metal); a vertex that several materials share
 /// has the first one's.
 std::vector<MattePoint> matte_vertices(const Mesh& mesh);
 

@@ -17,7 +17,7 @@ double luminance(const glm::dvec3& light) {
   return glm::dot(kLuminanceWeights, light);
 }
 
-// Point of [0, 1] with density proportional to a + (b - a) x.
+// A point of [0, 1] with density proportional to a + (b - a) x.
 double sample_linear(double u, double a, double b) {
   return a + b > 0 ? std::min(u * (a + b) / std::max(a + std::sqrt((1 - u) * a * a + u * b * b), 1e-300), 1.0) : u;
 }
@@ -128,7 +128,7 @@ std::optional<LightSample> ProbeSampler::sample(const glm::dvec2& square) const 
   return LightSample{direction_of(cell), radiance_in(cell), density};
 }
 
-// Gauss-Legendre, three nodes each way in every cell.
+// The quadrature is Gauss-Legendre, three nodes each way in every cell.
 glm::dvec3 ProbeSampler::irradiance(const glm::dvec3& normal_tag) const {
   constexpr std::array<double, 3> kNodes{0.1127016653792583, 0.5, 0.8872983346207417}, kWeights{5.0 / 18, 8.0 / 18, 5.0 / 18};
   const double cell_size = 2 * kPi / columns() * kPi / rows();

@@ -27,20 +27,20 @@ class ProbeSampler {
 
   glm::dvec3 radiance(const glm::dvec3& direction_tag) const;
 
-  /// `square` in [0, 1)^2. Empty where there is no light at all.
+  /// The sample drawn by a place of `square`, [0, 1)^2. Empty where there is no light at all.
   std::optional<LightSample> sample(const glm::dvec2& square) const;
 
-  /// Of sample(): its density in any direction, 0 where it never goes.
+  /// The density with which sample() draws a direction, 0 where it never does.
   double density(const glm::dvec3& direction_tag) const;
 
-  /// Of the whole light on a surface with that normal, by quadrature of the same function; no sampling noise.
+  /// Irradiance of the whole light on a surface with that normal, by quadrature of the same function; no sampling noise.
   glm::dvec3 irradiance(const glm::dvec3& normal_tag) const;
 
  private:
   struct Cell {
-    int x, y;        ///< of its first texel
+    int x, y;        ///< the cell's first texel
     double s, t;     ///< place between the centres, 0 to 1
-    double cos_lat;  ///< there
+    double cos_lat;  ///< cosine of the latitude there
   };
   Cell cell_of(const glm::dvec3& direction_tag) const;
   glm::dvec3 direction_of(const Cell& cell) const;
@@ -56,7 +56,7 @@ class ProbeSampler {
   Image image_;  ///< latlong
   glm::dmat3 tag_from_probe_;
   std::vector<double> row_cdf_;  ///< rows() + 1, from 0 to 1; empty where all is black
-  std::vector<float> cell_cdf_;  ///< of each row columns() + 1, from 0 to 1
+  std::vector<float> cell_cdf_;  ///< columns() + 1 a row, from 0 to 1
 };
 
 }  // namespace catchlight::render::reference

@@ -18,7 +18,7 @@ struct FrameLight {
   RigidTransform camera_from_tag;
 };
 
-/// All in the tag frame.
+/// A scene to be traced, all in the tag frame.
 ///
 /// The receiver is the plane z = 0, opaque and Lambertian. Without the object it has the radiance that the frame shows there, or,
 /// where the frame does not show it, what the probe sees from probe_in_tag_m. Its albedo is that radiance by the probe's
@@ -31,7 +31,7 @@ struct ReferenceScene {
   bool has_receiver = false;
   glm::dvec3 probe_in_tag_m{0.0};  ///< where the probe was captured
   std::optional<FrameLight> frame;
-  glm::dvec3 unlit_radiance{1.0};  ///< of a surface whose unlit colour is 1
+  glm::dvec3 unlit_radiance{1.0};  ///< radiance of a surface whose unlit colour is 1
 };
 
 }  // namespace catchlight::render::reference

@@ -5,7 +5,7 @@
 namespace catchlight::render {
 namespace {
 
-/// In stops. Where either has none (no white at all), at once.
+/// The approach of a value to another in stops; at once where either has none (no white at all).
 double approached(double from, double to, double elapsed_s, double tau_s) {
   const double stops = std::log2(from / to);
   if (!std::isfinite(stops)) return to;

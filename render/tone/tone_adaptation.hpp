@@ -18,15 +18,16 @@ class ToneAdaptation {
   /// Time constants; 0: at once, which is with the next frame.
   ToneAdaptation(double bright_s, double dark_s) : bright_s_(bright_s), dark_s_(dark_s) {}
 
-  /// What a frame of this time is drawn with; nothing before the first was seen. A time before the last frame's counts as its.
+  /// The curve that a frame of this time is drawn with; none before the first was seen. A time before the last frame's counts as
+  /// its.
   std::optional<ToneCurve> at(double time_s) const;
 
-  /// The frame of this time calls for `target`.
+  /// Says that the frame of this time calls for `target`.
   void see(double time_s, const ToneCurve& target);
 
  private:
   double bright_s_, dark_s_;
-  std::optional<ToneCurve> seen_from_;  ///< at time_s_
+  std::optional<ToneCurve> seen_from_;  ///< the curve at time_s_
   ToneCurve target_;
   double time_s_ = 0;
 };

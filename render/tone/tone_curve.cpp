@@ -9,7 +9,7 @@
 namespace catchlight::render {
 namespace {
 
-/// Half the light of sRGB's first code of 8 bits: darker than this, footage tells nothing.
+/// The least luminance that counts: half the light of sRGB's first code of 8 bits. Darker than this, footage tells nothing.
 constexpr double kDarkest = 0.5 / 255 / 12.92;
 constexpr double kDeltaShare = 1e-3;
 constexpr double kLowShare = 0.01, kHighShare = 0.99;

@@ -25,7 +25,7 @@ struct LuminanceHistogram {
   double mean(int bin) const;
 };
 
-/// Linear light, 1 = sensor white.
+/// A frame's luminances in linear light, 1 = sensor white.
 struct SceneLuminance {
   double average = 0;        ///< exp(mean(log(delta + L))) - delta: a constant frame's is itself, a black frame's is 0
   double low = 0, high = 0;  ///< 1 % and 99 % percentiles: one sun pixel is neither
@@ -47,7 +47,7 @@ struct ToneSettings {
 /// the curve is a straight line, as a flat frame would burn out.
 ToneCurve tone_curve(const SceneLuminance& luminance, const ToneSettings& settings);
 
-/// Of linear RGB in primaries reached by `plate_from_rec709`.
+/// Luminance weights of linear RGB in the primaries reached by `plate_from_rec709`.
 glm::dvec3 luminance_weights(const glm::mat3& plate_from_rec709);
 
 }  // namespace catchlight::render

@@ -9,8 +9,8 @@
 
 namespace catchlight::render {
 
-/// What is kept at vertices is interpolated over their triangles: one that lies within another part would darken what sticks out
-/// of it. So it takes the mean of its open neighbours; without any, its triangles cannot be seen and it stays as it is.
+/// Interior vertices take the mean of their open neighbours. What is kept at vertices is interpolated over their triangles: an
+/// interior one would darken what sticks out. One without open neighbours cannot be seen and stays as it is.
 class InteriorVertices {
  public:
   /// `is_interior`: a value a vertex, nonzero where the vertex lies within another part.

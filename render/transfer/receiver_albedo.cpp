@@ -7,14 +7,14 @@
 namespace catchlight::render {
 namespace {
 
-constexpr int kColumns = 180, kRows = 45;  // two degrees
-constexpr int kSubsamples = 3;             // along each side of a texel
-/// Of the light that reaches the plane: more cannot come back, but probes and planes are not perfect.
+constexpr int kColumns = 180, kRows = 45;  // texels of two degrees
+constexpr int kSubsamples = 3;             // samples along each side of a texel
+/// Share that may come back of the light that reaches the plane: 1 in truth, but probes and planes are not perfect.
 constexpr double kMaxSentBack = 1.2;
 /// Rounded to this, an albedo does not depend on the scale that the probe is in.
 constexpr double kAlbedoStep = 1.0 / 1024;
 
-// Towards texel position (x, y), corners at integers.
+// The direction towards texel position (x, y), corners at integers.
 glm::dvec3 direction_at(double x, double y) {
   const double from_nadir = y / kRows * glm::half_pi<double>(), turn = x / kColumns * glm::two_pi<double>();
   return {std::sin(from_nadir) * std::cos(turn), std::sin(from_nadir) * std::sin(turn), -std::cos(from_nadir)};

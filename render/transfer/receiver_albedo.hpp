@@ -17,11 +17,11 @@ struct ReceiverAlbedo {
 
   bool known() const { return image.width > 0; }
   glm::vec3 at(const glm::vec2& place_m) const;
-  /// As seen from there.
+  /// The albedo of the point that lies in `direction` from seen_from_m.
   glm::vec3 towards(const glm::vec3& direction) const;
 };
 
-/// The same everywhere.
+/// The same albedo everywhere.
 ReceiverAlbedo constant_albedo(const glm::vec3& albedo);
 
 /// pi L / E of every point below the probe, L being the radiance that the probe saw of it and E the probe's irradiance on the

@@ -8,8 +8,8 @@
 namespace catchlight::render {
 namespace {
 
-constexpr int kRimCells = 4;      // over which the receiver's shadow fades to nothing
-constexpr int kCoveredRings = 2;  // of covered points that are filled from their neighbours
+constexpr int kRimCells = 4;      // cells over which the receiver's shadow fades to nothing
+constexpr int kCoveredRings = 2;  // rings of covered points that are filled from their neighbours
 
 bool fill_from_neighbours(const ReceiverGrid& grid, const std::vector<char>& covered, int x, int y, std::span<glm::vec3> values) {
   const std::size_t count = values.size() / grid.points();

@@ -17,7 +17,7 @@ struct ReceiverGrid {
 
   std::size_t points() const { return static_cast<std::size_t>(columns) * rows; }
   glm::vec2 place_m(std::size_t point) const;
-  /// Empty beyond the outermost points.
+  /// The point nearest to the place; empty beyond the outermost points.
   std::optional<std::size_t> nearest(const glm::vec2& place_m) const;
 };
 

@@ -21,7 +21,7 @@ constexpr std::size_t kPointsPerTask = 64;
 // pixel.
 constexpr float kLift = 1e-5f;
 
-constexpr float kMinBounce = 0.004f;  // of the brightest spot: what comes back of less is below one code of 255
+constexpr float kMinBounce = 0.004f;  // share of the brightest spot: what comes back of less is below one code of 255
 constexpr int kMinRays = 256;
 
 using Basis = std::array<float, kMaxShBands * kMaxShBands>;
@@ -102,7 +102,7 @@ class Baker {
     done_ += static_cast<double>(points);
   }
 
-  // visit(origin, direction) for every ray of the point.
+  // Calls visit(origin, direction) for every ray of the point.
   template <typename Visit>
   void for_rays(const glm::vec3& position_m, const glm::vec3& normal, int rays, const Visit& visit) const {
     const Hemisphere hemisphere(normal);
@@ -112,9 +112,8 @@ class Baker {
     for (int k = 0; k < rays; ++k) visit(origin_m, hemisphere.direction(scrambled_sobol(k, seed)));
   }
 
-  // The closed form of the open hemisphere less what the occluded rays would have brought: exact where nothing is in the way, and
-  // elsewhere only the blocked part is uncertain.
-  // Returns whether the vertex lies within another part.
+  // The transfer is the closed form of the open hemisphere less what the occluded rays would have brought: exact where nothing is
+  // in the way, and elsewhere only the blocked part is uncertain. Returns whether the vertex lies within another part.
   bool bake_direct(std::size_t v, std::span<glm::vec3> out) const {
     const Vertex& vertex = mesh_.vertices[v];
     if (albedo_[v] == glm::vec3(0)) return false;
@@ -133,7 +132,7 @@ class Baker {
     return escaped == 0 && looks_at_backs(vertex);
   }
 
-  // As from within a solid; in a narrow gap or a closed room the rays meet fronts.
+  // Whether rays meet backs of faces, as from within a solid; in a narrow gap or a closed room they meet fronts.
   bool looks_at_backs(const Vertex& vertex) const {
     constexpr int kRays = 64;
     int backs = 0;
@@ -144,8 +143,8 @@ class Baker {
     return backs > kRays / 2;
   }
 
-  // Light on its way over one more surface each time, until it stops mattering. What came last is passed on alone, so that fewer
-  // rays do for it the less it is.
+  // Sends light over one more surface each time, until it stops mattering. What came last is passed on alone, so that fewer rays
+  // do for it the less it is.
   void bake_bounces(Transfer& transfer, const InteriorVertices& interior, const std::vector<char>& covered) {
     const std::size_t vertices = mesh_.vertices.size();
     std::vector<glm::vec3> last = transfer.object_direct, sent_up = sent_up_by(transfer.receiver_direct, transfer.grid);
@@ -164,7 +163,7 @@ class Baker {
     }
   }
 
-  // Of the first coefficients, which all others keep below.
+  // The largest first coefficient; all others stay below it.
   float largest(const std::vector<glm::vec3>& all) const {
     float most = 0;
     for (std::size_t i = 0; i < all.size(); i += count_) most = std::max({most, all[i].x, all[i].y, all[i].z});
@@ -175,7 +174,7 @@ class Baker {
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += more[i];
   }
 
-  // What leaves the vertex of the light that front faces and the receiver sent in its direction.
+  // Gathers what leaves the vertex of the light that front faces and the receiver sent in its direction.
   void gather(std::size_t v, int rays, const std::vector<glm::vec3>& sent, const Transfer& transfer,
               const std::vector<glm::vec3>& sent_up, bool first_time, std::span<glm::vec3> out) const {
     if (albedo_[v] == glm::vec3(0)) return;
@@ -194,8 +193,8 @@ class Baker {
     for (glm::vec3& value : out) value *= albedo_[v];
   }
 
-  // The light counts what the probe saw below the plane as infinitely far away and open to the sky: takes that out, for what is
-  // met where the plane is. Both are shares of the light that reaches the plane, so no sharp horizon has to be held by a few
+  // The light counts what the probe saw below the plane as infinitely far away and open to the sky: this takes that out, for what
+  // is met where the plane is. Both are shares of the light that reaches the plane, so no sharp horizon has to be held by a few
   // bands.
   void correct_for_receiver(const glm::vec2& place_m, const glm::vec3& direction, bool beyond_grid, const Transfer& transfer,
                             float share, std::span<glm::vec3> sum) const {
@@ -204,7 +203,7 @@ class Baker {
     for (int i = 0; i < count_; ++i) sum[i] += share * transfer.receiver_unshadowed[i] * albedo;
   }
 
-  // What each of the receiver's points sends back of its light.
+  // The light that each of the receiver's points sends back.
   std::vector<glm::vec3> sent_up_by(const std::vector<glm::vec3>& receiver, const ReceiverGrid& grid) const {
     std::vector<glm::vec3> sent_up;
     if (!receiver_sends_back_) return sent_up;
@@ -225,8 +224,9 @@ class Baker {
     }
   }
 
-  // visit(direction, weight): sum of weight * f = (1 / pi) integral of max(z, 0) f dw for any f that is 0 where the object is
-  // not. From afar the object is small in the sky: there the rays go into the cone around its bounding sphere, uniformly.
+  // Calls visit(direction, weight) so that the sum of weight * f = (1 / pi) integral of max(z, 0) f dw for any f that is 0 where
+  // the object is not. From afar the object is small in the sky: there the rays go into the cone around its bounding sphere,
+  // uniformly.
   template <typename Visit>
   void for_receiver_rays(const glm::vec3& origin_m, int rays, const Visit& visit) const {
     const std::uint32_t seed = seed_of(origin_m, glm::vec3(0, 0, 1), options_.seed);
@@ -270,7 +270,7 @@ class Baker {
     return covered;
   }
 
-  // What the object sends down.
+  // Gathers what the object sends down to the point.
   void gather_on_receiver(std::size_t p, int rays, const std::vector<glm::vec3>& sent, const ReceiverGrid& grid,
                           std::span<glm::vec3> out) const {
     const glm::vec3 origin_m(grid.place_m(p), lift_m_);
@@ -291,7 +291,7 @@ class Baker {
   int count_;
   RayScene scene_;
   std::vector<glm::vec3> albedo_;
-  glm::vec3 middle_m_{0};  // of a sphere around the object
+  glm::vec3 middle_m_{0};  // middle of a sphere around the object
   float radius_m_ = 0, lift_m_ = 0;
   bool receiver_sends_back_ = false;
   double done_ = 0, total_ = 1;

@@ -17,19 +17,20 @@ namespace catchlight::render {
 
 struct TransferOptions {
   int bands = 6;
-  int rays = 512;   ///< a vertex, over the hemisphere
+  int rays = 512;   ///< rays of a vertex, over the hemisphere
   int bounces = 0;  ///< interreflections within the object, and between it and the receiver
-  /// Of the receiver, where `bounces` and a grid are given: its light then reaches the object from its true place, darkened by
-  /// the object, and only what lies above the plane counts as sky. Unknown: what is below is lit and as far away as the sky.
+  /// The receiver's albedo counts where `bounces` and a grid are given: its light then reaches the object from its true place,
+  /// darkened by the object, and only what lies above the plane counts as sky. Unknown: what is below is lit and as far away as
+  /// the sky.
   ReceiverAlbedo receiver_albedo = {};
   std::uint32_t seed = 1;
   int threads = 0;  ///< 0: all cores. The result does not depend on it.
 };
 
-/// All in the tag frame. Vertex v's exit radiance per channel = sum_i light_i * object[v * n^2 + i]: albedo (of the diffuse part)
-/// included. Receiver point p's irradiance relative to the unshadowed one = dot(light, receiver[p]) / dot(light,
-/// receiver_unshadowed): that ratio multiplies the real surface (Debevec 1998); receiver values are normalised for a white
-/// (albedo 1) surface.
+/// What bake_transfer makes, all in the tag frame. Vertex v's exit radiance per channel = sum_i light_i * object[v * n^2 + i]:
+/// albedo (of the diffuse part) included. Receiver point p's irradiance relative to the unshadowed one = dot(light, receiver[p])
+/// / dot(light, receiver_unshadowed): that ratio multiplies the real surface (Debevec 1998); receiver values are normalised for a
+/// white (albedo 1) surface.
 struct Transfer {
   int bands = 0;
   std::vector<glm::vec3> object;         ///< vertices * bands^2

@@ -5,7 +5,7 @@
 namespace catchlight::render {
 namespace {
 
-/// Around all that is not 0.
+/// The rectangle around all that is not 0.
 PixelRect bounds_of(const Image& image) {
   int left = image.width, right = -1, top = image.height, bottom = -1;
   for (int y = 0; y < image.height; ++y)

@@ -13,16 +13,16 @@ namespace catchlight::render {
 
 class ApertureGlarePass {
  public:
-  /// Throws Error as FftGlare.
+  /// Throws Error as FftGlare does.
   explicit ApertureGlarePass(const GlareSettings& settings);
 
-  /// What of `object` (which holds the frame's pixels of `rect`) glares. False, and nothing else to do, where nothing does.
+  /// Extracts what of `object` (which holds the frame's pixels of `rect`) glares. False where nothing does: there is no glare.
   bool extract(const GlTexture& object, const PixelRect& rect, int frame_width, int frame_height);
 
-  /// After extract() was true. Gives the pixels of the frame that the glare reaches.
+  /// Convolves the excess; only after extract() was true. Gives the pixels of the frame that the glare reaches.
   PixelRect spread(const CameraModel& camera);
 
-  /// What is added to the frame, exposed linear light, by pixels of the frame.
+  /// The glare that is added to the frame, exposed linear light, by pixels of the frame.
   const GlTexture& glare() const { return texture_; }
 
  private:

@@ -13,16 +13,16 @@ class BloomPass {
  public:
   explicit BloomPass(ShaderLibrary& shaders);
 
-  /// For a grid of that many texels, margins included.
+  /// Makes what a grid of that many texels needs, margins included.
   void resize(int columns, int rows, double rows_per_height);
 
   /// Halves the excess again and again; needed before the two below.
   void shrink(const GlTexture& excess, const PixelRect& texels);
 
-  /// Sum over the texels of the grid, of the channel that has most.
+  /// The excess summed over the grid, in the channel that has most.
   double total() const;
 
-  /// The halvings by number, from 1: the excess, and what glows of it there.
+  /// A halving of the grid, by number from 1: the excess, and what glows of it there.
   struct Level {
     ColorTarget<1> shrunk, scratch, glow;
   };
@@ -31,14 +31,14 @@ class BloomPass {
   /// Texels of a level that touch these of the grid, and as many around them as the way up reads, or else `around`.
   PixelRect texels_at(const PixelRect& texels, int level, int around = 3) const;
 
-  /// What is to be drawn; not by this class where it needs the grid itself.
+  /// The Gaussians to be drawn; those that need the grid itself are not drawn by this class.
   const std::vector<BloomBlur>& blurs() const { return blurs_; }
 
-  /// From the coarsest level to the first: makes its glow, strength times the bloom of this level and the coarser ones. What else
-  /// is to glow there is added before the next one is made.
+  /// Makes a level's glow, strength times the bloom of this level and the coarser ones; called from the coarsest level to the
+  /// first. What else is to glow there is added before the next one is made.
   void glow(int number, double strength, const PixelRect& texels, GlareBlur& blur);
 
-  /// Then writes it to `target`, of the grid's size, over `texels`.
+  /// Writes the first level's glow to `target`, of the grid's size, over `texels`.
   void gather(const ColorTarget<1>& target, const PixelRect& texels) const;
 
  private:

@@ -12,7 +12,7 @@ namespace {
 constexpr int kStreakPasses = 3;
 constexpr std::array<glm::ivec2, 4> kDiagonals{{{1, 1}, {-1, 1}, {1, -1}, {-1, -1}}};
 
-/// Nothing comes in from beyond the picture.
+/// A target into which nothing comes from beyond the picture.
 ColorTarget<1> square_target(const char* label, int size) {
   ColorTarget<1> target(label, GL_RGBA32F, size, size, GL_LINEAR);
   glTextureParameteri(target.texture().id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
@@ -20,7 +20,7 @@ ColorTarget<1> square_target(const char* label, int size) {
   return target;
 }
 
-/// To be laid over the whole picture, up to its edge.
+/// A target that is laid over the whole picture, up to its edge.
 ColorTarget<1> result_target(const char* label, int size) {
   return ColorTarget<1>(label, GL_RGBA32F, size, size, GL_LINEAR);
 }

@@ -9,7 +9,7 @@
 
 namespace catchlight::render {
 
-/// What is left of a streak a texel of the 128 further on, from what is left a pixel further on at 480 rows.
+/// A streak's attenuation per texel of the 128, from that per pixel at 480 rows.
 double classic_attenuation(double attenuation_at_480_rows);
 
 class ClassicLook {
@@ -20,11 +20,11 @@ class ClassicLook {
   /// keeps its colour.
   void draw(const GlTexture& light, int width, int height, double threshold, double attenuation);
 
-  /// Sum of three Gaussians, each of unit sum, of the bright parts at 512, 256 and 64 squared over the whole picture.
+  /// The sum of three Gaussians, each of unit sum, of the bright parts at 512, 256 and 64 squared over the whole picture.
   const GlTexture& bloom() const { return bloom_.texture(); }
-  /// Mean of four diagonal streaks, at 128 squared: a^k at k texels from a bright one, along the picture's diagonals.
+  /// The mean of four diagonal streaks, at 128 squared: a^k at k texels from a bright one, along the picture's diagonals.
   const GlTexture& streaks() const { return streaks_.texture(); }
-  /// What both are made of, 512 squared: means over each texel of the picture.
+  /// The bright parts that both are made of, 512 squared: means over each texel of the picture.
   const GlTexture& bright() const { return bright_.texture(); }
 
  private:

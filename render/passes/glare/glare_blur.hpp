@@ -17,8 +17,8 @@ class GlareBlur {
   /// One axis of a blur, ready to be drawn: along the rows (0) or down the columns (1) of `source`. Both together have `weight`.
   const Program& axis(const GlTexture& source, int axis, const std::vector<double>& taps, double weight);
 
-  /// Adds `weight` times the blurred `source` to `target` over `texels`; both and `scratch` are of one size. `taps` at distance
-  /// 0, 1, 2 ...
+  /// Adds `weight` times the blurred `source` to `target` over `texels`; both and `scratch` are of one size. `taps` are the
+  /// weights at distance 0, 1, 2 ...
   void add(const GlTexture& source, const ColorTarget<1>& scratch, const ColorTarget<1>& target, const std::vector<double>& taps,
            double weight, const PixelRect& texels);
 

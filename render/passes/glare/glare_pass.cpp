@@ -11,7 +11,7 @@ namespace {
 
 /// How many texels beyond a pixel the first filter carries its light, and beyond a texel the gate looks.
 constexpr int kFilterReach = 2, kGateReach = 2;
-/// From a bright pixel: texels that its gate can open for, and those that the gate looks at there.
+/// Texels around a bright pixel that its gate can open for, and those that the gate looks at there.
 constexpr int kExcessReach = kFilterReach + kGateReach, kLightReach = kExcessReach + kGateReach;
 
 PixelRect around(const std::vector<PixelRect>& rectangles) {
@@ -58,7 +58,7 @@ const Program& GlarePass::axis_filter(std::vector<std::string> defines, int firs
   return program;
 }
 
-/// The object's light on the grid: first along the pixels' rows, then down the columns.
+/// Brings the object's light onto the grid: first along the pixels' rows, then down the columns.
 void GlarePass::filter(const GlTexture& object, const GlTexture* emission, const PixelRect& rect) {
   if (!filtered_rows_ || filtered_rows_->width() != grid_.columns || filtered_rows_->height() < rect.height)
     filtered_rows_ = std::make_unique<ColorTarget<1>>(make_glare_target("rows to glare", grid_.columns, roomy(rect.height)));
@@ -76,7 +76,7 @@ void GlarePass::filter(const GlTexture& object, const GlTexture* emission, const
   draw_.over(tiles_.grown(kLightReach, kLightReach), *light_, axis_filter({"AXIS 1"}, rect.y, rect.height));
 }
 
-/// The excess comes in two parts beside its sum, ready for their own streaks.
+/// Lets the excess come in two parts beside its sum, for streaks of their own.
 void GlarePass::attach_parts() {
   if (!emitted_) {
     for (auto* part : {&reflected_, &emitted_})
@@ -132,7 +132,7 @@ PixelRect GlarePass::spread() {
   return intersect(grid_.pixels(texels), {0, 0, frame_width_, frame_height_});
 }
 
-/// What of the bloom the grid itself is needed for, around the light alone.
+/// Adds the part of the bloom that the grid itself is needed for, around the light alone.
 void GlarePass::add_narrow_bloom() {
   for (const BloomBlur& each : bloom_.blurs()) {
     if (each.level > 0 || settings_.bloom_strength <= 0) continue;

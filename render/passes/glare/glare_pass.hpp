@@ -22,18 +22,18 @@ class GlarePass {
   GlarePass(const GlareSettings& settings, ShaderLibrary& shaders);
 
   /// Extracts what is over the threshold of `object` (which holds the frame's pixels of `rect`). `emission`: the object's own
-  /// light among it, in the same pixels; null where it glares as the rest. False, and nothing else to do, where nothing is.
+  /// light among it, in the same pixels; null where it glares as the rest. False where nothing is: the frame has no glare.
   bool extract(const GlTexture& object, const GlTexture* emission, const PixelRect& rect, int frame_width, int frame_height);
 
-  /// After extract() was true: bloom and streaks. Gives the pixels of the frame that they reach.
+  /// Draws bloom and streaks; only after extract() was true. Gives the pixels of the frame that they reach.
   PixelRect spread();
 
-  /// The excess on the grid with its margins, exposed linear light per texel; and on the CPU, RGB.
+  /// The excess on the grid with its margins, exposed linear light per texel; read_excess() has it on the CPU, RGB.
   const GlTexture& excess() const { return excess_->texture(); }
   Image read_excess() const;
   const GlareGrid& grid() const { return grid_; }
 
-  /// What is added to the frame, exposed linear light, strengths included, on the same grid; to be read as a cubic B-spline.
+  /// The glare that is added to the frame, exposed linear light on the same grid; to be read as a cubic B-spline.
   const GlTexture& glare() const { return glow_->texture(); }
   Image read_glare() const;
   /// Coordinates of the glare's texels: pixel of the frame times xy plus zw.

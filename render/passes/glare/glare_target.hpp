@@ -5,11 +5,11 @@
 
 namespace catchlight::render {
 
-/// 32 bits a channel: four streak passes would round half floats by up to 1e-3, and the sun's excess does not fit them.
-/// Nothing comes in from beyond its edges.
+/// A target of 32 bits a channel: four streak passes would round half floats by up to 1e-3, and the sun's excess does not fit
+/// them. Nothing comes in from beyond its edges.
 ColorTarget<1> make_glare_target(const char* label, int width, int height);
 
-/// Makes all of it black.
+/// Makes all of the target black.
 void clear(const ColorTarget<1>& target);
 
 }  // namespace catchlight::render

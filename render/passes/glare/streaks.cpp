@@ -8,10 +8,10 @@
 namespace catchlight::render {
 namespace {
 
-/// The bands between passes are this high together.
+/// Most rows that the bands between passes have together.
 constexpr int kMaxRows = 4096;
 
-/// Where a pass leaves light that lay within `light`.
+/// The texels in which a pass leaves light that lay within `light`.
 PixelRect swept(const PixelRect& light, const StreakSamples& samples, const ColorTarget<1>& target) {
   constexpr int kAround = 2;  // what interpolation reads
   const PixelRect near{light.x - kAround, light.y - kAround, light.width + 2 * kAround, light.height + 2 * kAround};

@@ -1,4 +1,4 @@
-// Camera frame to clip space, against OpenCV's own projection.
+// The camera frame taken to clip space, against OpenCV's own projection.
 #include "render/camera/clip_from_camera.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/pixel_rect.hpp"

@@ -88,7 +88,7 @@ class ShaderFolder {
   }
   ~ShaderFolder() { std::filesystem::remove_all(path_); }
   void write(const std::string& name, const std::string& text) const { std::ofstream(path_ / name) << text; }
-  /// Every `from` of the embedded file.
+  /// Replaces every `from` of the embedded file.
   void replace_in(const std::string& name, const std::string& from, const std::string& to) const {
     std::string text = embedded_shaders().at(name);
     ASSERT_NE(text.find(from), std::string::npos) << from;

@@ -59,7 +59,7 @@ Mesh with_material(Mesh mesh, const Material& material) {
   return mesh;
 }
 
-/// Without the faint gloss of a dielectric.
+/// The mesh without the faint gloss of a dielectric.
 Mesh lambertian(Mesh mesh) {
   for (Material& material : mesh.materials) material.dielectric_f0 = 0;
   return mesh;

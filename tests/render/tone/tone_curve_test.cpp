@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// By frexp() instead of the float's bits.
+/// The histogram by frexp() instead of the float's bits.
 LuminanceHistogram histogram_of(const std::vector<double>& luminances) {
   LuminanceHistogram histogram;
   for (const double luminance : luminances) {

@@ -23,7 +23,7 @@ class ClassicLookGl : public GlTest {};
 
 constexpr double kAttenuation = 0.9;
 
-/// One channel, square or not.
+/// A picture of one channel, square or not.
 struct Plane {
   int width, height;
   std::vector<double> values;
@@ -40,7 +40,7 @@ Plane shrunk(const Plane& source, int factor) {
   return result;
 }
 
-/// All 15 x 15 taps at once.
+/// The blur with all 15 x 15 taps at once.
 double blurred(const Plane& source, int x, int y) {
   double sum = 0, weights = 0;
   for (int j = -7; j <= 7; ++j) {
@@ -53,7 +53,7 @@ double blurred(const Plane& source, int x, int y) {
   return sum / weights;
 }
 
-/// At (u, v) in 0..1 between texels of `value`, clamped to the edge.
+/// The value at (u, v) in 0..1 between texels of `value`, clamped to the edge.
 double bilinear(int size, double u, double v, const std::function<double(int, int)>& value) {
   const double x = std::clamp(u * size - 0.5, 0.0, size - 1.0), y = std::clamp(v * size - 0.5, 0.0, size - 1.0);
   const int x0 = static_cast<int>(x), y0 = static_cast<int>(y), x1 = std::min(x0 + 1, size - 1), y1 = std::min(y0 + 1, size - 1);

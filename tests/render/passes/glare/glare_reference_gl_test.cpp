@@ -15,7 +15,7 @@ namespace {
 class GlareReferenceGl : public GlTest {};
 
 struct Difference {
-  double largest, mean;  ///< of the reference's peak
+  double largest, mean;  ///< in shares of the reference's peak
 };
 
 Difference difference(const Image& fast, const Image& reference) {
