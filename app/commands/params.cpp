@@ -11,7 +11,7 @@ namespace {
 void print_table() {
   const SceneSettings defaults;
   for (const Parameter& parameter : parameters())
-    std::printf("%s = %s\n    %s\n    Expected: %s. A change costs: %s.\n", parameter.key.c_str(),
+    std::printf("%s = %s\n    %s\n    Expected: %s.\n    A change costs: %s.\n", parameter.key.c_str(),
                 parameter_text(defaults, parameter).c_str(), parameter.help.c_str(), expected_text(parameter).c_str(),
                 name_of(parameter.cost).c_str());
 }

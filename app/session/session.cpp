@@ -15,7 +15,7 @@ namespace {
 
 [[noreturn]] void refuse_range(const std::string& footage, const FrameRange& range, std::int64_t count, std::int64_t first) {
   const std::string wanted = range.end == range.begin + 1 ? "there is no frame " + std::to_string(range.begin)
-                                                          : "no frame of the footage lies in the range that is asked for";
+                                                          : "no frame of the footage lies in --frames";
   throw Error(footage + ": " + wanted + "; it has " + std::to_string(count) + " from " + std::to_string(first));
 }
 
