@@ -44,7 +44,6 @@ class ExrLayerOutput : public FrameOutput {
  public:
   ExrLayerOutput(SequencePattern pattern, bool overwrite) : pattern_(std::move(pattern)), overwrite_(overwrite) {}
 
-
   void write(const Frame& frame, const Composite& composite) override {
     const std::string path = pattern_.file(frame.number()).string();
     check_output_path(path, overwrite_);
