@@ -13,10 +13,12 @@
 namespace catchlight::app {
 namespace {
 
+/// What there is instead, and what to do, where no frame lies in the range.
 [[noreturn]] void refuse_range(const std::string& footage, const FrameRange& range, std::int64_t count, std::int64_t first) {
   const std::string wanted = range.end == range.begin + 1 ? "there is no frame " + std::to_string(range.begin)
                                                           : "no frame of the footage lies in --frames";
-  throw Error(footage + ": " + wanted + "; it has " + std::to_string(count) + " from " + std::to_string(first));
+  throw Error(footage + ": " + wanted + "; it has " + std::to_string(count) + " from " + std::to_string(first) +
+              "; choose frames that it has");
 }
 
 /// Refuses a range that lies beside the footage, where that says how long it is, before anything is done.
@@ -59,63 +61,70 @@ Session::Session(Recording recording, SessionOptions options, Log& log)
 
 void Session::prepare() {
   renderer_.load();
+  renderer_.open_gl();
   if (!track_) track_ = open_track();
   measure("build", [&] { renderer_.prepare(); });
 }
 
 std::optional<FrameJob> Session::decode() {
+  if (!track_) track_ = open_track();
   if (!progress_) progress_.emplace(log_, options_.task, frames_to_read(footage_->info(), options_.range));
   try {
     std::optional<Frame> frame = measure("decode", [&] { return footage_->read(); });
     if (frame && frame->number() < options_.range.end) {
-      progress_->update(++decoded_);
+      progress_->update(++pass_.decoded);
       const bool is_before_range = frame->number() < options_.range.begin;
-      if (!is_before_range) ++in_range_;
+      if (!is_before_range) ++pass_.in_range;
       return FrameJob{.image = std::move(*frame), .is_before_range = is_before_range};
     }
   } catch (const DamagedMedia& damaged) {
-    damage_ = damaged.what();
+    pass_.damage = damaged.what();
   }
   progress_.reset();
-  if (in_range_ == 0 && !damage_) refuse_range(recording_.footage, options_.range, decoded_, footage_->info().first_number);
-  if (track_ && track_->warning()) log_.warn(*track_->warning());
+  if (pass_.in_range == 0 && pass_.damage) throw DamagedMedia(*pass_.damage);
+  if (pass_.in_range == 0) refuse_range(recording_.footage, options_.range, pass_.decoded, footage_->info().first_number);
+  if (track_->warning()) log_.warn(*track_->warning());
   return std::nullopt;
 }
 
 void Session::track(FrameJob& job) {
-  if (!track_) track_ = open_track();
   job.track = track_->is_tracking() ? measure("track", [&] { return track_->row(job.image); }) : track_->row(job.image);
   if (job.is_before_range) return;
-  report_.count(job.track);
-  if (options_.keeps_track) rows_.push_back(job.track);
-  typical_rows_.add(job.track);
-  last_image_ = job.image;
-  last_row_ = job.track;
+  pass_.report.count(job.track);
+  if (options_.keeps_track) pass_.rows.push_back(job.track);
+  pass_.typical_rows.add(job.track);
+  pass_.last_image = job.image;
+  pass_.last_row = job.track;
 }
 
 void Session::render(FrameJob& job) {
   renderer_.render(job);
-  count_glare(job.result, camera_, report_);
-  for (const render::PassTime& pass : renderer_.pass_times()) report_.stages.add(pass.name, pass.ms);
+  const bool is_first_time = pass_.last_drawn != job.image.number();
+  pass_.last_drawn = job.image.number();
+  if (is_first_time) count_glare(job.result, camera_, pass_.report);
+  for (const render::PassTime& pass : renderer_.pass_times()) pass_.report.stages.add(pass.name, pass.ms);
 }
 
 std::unique_ptr<FrameTrack> Session::open_track() {
   const SceneSettings& scene = recording_.scene;
   if (!options_.track_file.empty()) return make_recorded_track(tracking::read_track_file(options_.track_file), camera_, scene);
   if (options_.is_causal || footage_->info().is_live) return make_tag_track(camera_, scene);
-  return make_recorded_track(solve_shot(*open_footage(recording_), camera_, scene, options_.range, log_, report_.stages).rows,
-                             camera_, scene);
+  return make_recorded_track(
+      solve_shot(*open_footage(recording_), camera_, scene, options_.range, log_, pass_.report.stages).rows, camera_, scene);
 }
 
 std::vector<TrackRow> Session::track_range() {
   const bool is_solved = options_.track_file.empty() && !options_.is_causal && !footage_->info().is_live;
   std::vector<TrackRow> rows;
   if (is_solved) {
-    SolvedShot solved = solve_shot(*footage_, camera_, recording_.scene, options_.range, log_, report_.stages);
-    damage_ = solved.damage;
+    SolvedShot solved = solve_shot(*footage_, camera_, recording_.scene, options_.range, log_, pass_.report.stages);
+    pass_.damage = solved.damage;
     for (const TrackRow& row : solved.rows)
       if (options_.range.contains(row.frame)) rows.push_back(row);
-    for (const TrackRow& row : rows) report_.count(row);
+    if (rows.empty() && !solved.damage)
+      refuse_range(recording_.footage, options_.range, static_cast<std::int64_t>(solved.rows.size()),
+                   footage_->info().first_number);
+    for (const TrackRow& row : rows) pass_.report.count(row);
     return rows;
   }
   while (std::optional<FrameJob> job = decode()) {
@@ -127,28 +136,36 @@ std::vector<TrackRow> Session::track_range() {
 
 void Session::apply(const SceneSettings& settings) {
   const std::set<ChangeCost> costs = costs_of_change(recording_.scene, settings);
-  recording_.scene = settings;
+  const bool is_tracked_anew = costs.contains(ChangeCost::track) || costs.contains(ChangeCost::footage);
+  const bool is_live = footage_->info().is_live;
+  if (is_live && costs.contains(ChangeCost::footage))
+    throw Error(recording_.footage + ": live footage cannot be read in another way while it runs; open it anew");
+  Recording changed = recording_;
+  changed.scene = settings;
+  if (is_tracked_anew && !is_live) {
+    footage_ = open_footage(changed, log_.warning_handler());  // where this throws, all is as before
+    progress_.reset();
+    pass_ = {};
+    renderer_.restart();
+  }
+  recording_ = std::move(changed);
   renderer_.apply(settings);
-  if (!costs.contains(ChangeCost::footage) && !costs.contains(ChangeCost::track)) return;
-  footage_ = open_footage(recording_, log_.warning_handler());
-  track_.reset();
-  progress_.reset();
-  decoded_ = in_range_ = 0;
+  if (is_tracked_anew) track_.reset();
 }
 
 std::vector<PlanEntry> Session::plan() const {
   std::vector<PlanEntry> plan = renderer_.plan();
-  if (plan.empty() || !last_image_) return plan;
-  plan.push_back(glare_entry(recording_.scene, report_));
-  std::vector<TrackRow> rows = typical_rows_.values();
-  rows.push_back(last_row_);
-  std::ranges::move(lens_plan(recording_.scene.lens, rows, *last_image_, camera_.vignetting), std::back_inserter(plan));
+  if (plan.empty() || !pass_.last_image) return plan;
+  plan.push_back(glare_entry(recording_.scene, pass_.report));
+  std::vector<TrackRow> rows = pass_.typical_rows.values();
+  if (rows.back().frame != pass_.last_row.frame) rows.push_back(pass_.last_row);
+  std::ranges::move(lens_plan(recording_.scene.lens, rows, *pass_.last_image, camera_.vignetting), std::back_inserter(plan));
   return plan;
 }
 
 Report Session::report() const {
-  Report report = report_;
-  const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  Report report = pass_.report;
+  const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - pass_.start).count();
   report.fps = elapsed_s > 0 ? static_cast<double>(report.frames) / elapsed_s : 0;
   report.renderer = renderer_.gl_renderer();
   report.plan = plan();

@@ -42,9 +42,12 @@ class Session {
   void prepare();
 
   /// The next frame; none at the end of the range or of the footage, or where the footage is damaged.
+  /// Throws where not one frame lies in the range.
   std::optional<FrameJob> decode();
   void track(FrameJob& job);
   void view(FrameJob& job) { renderer_.view(job); }
+
+  /// A frame may be rendered again, with other settings; it counts once.
   void render(FrameJob& job);
 
   /// Takes a frame that is not to be drawn: the exposure adapts to it as well.
@@ -65,10 +68,10 @@ class Session {
   const ShotRenderer& renderer() const { return renderer_; }
 
   /// A text on the damage that ended the footage early; empty where none did.
-  const std::optional<std::string>& damage() const { return damage_; }
+  const std::optional<std::string>& damage() const { return pass_.damage; }
 
   /// The rows of the range so far, where options.keeps_track.
-  const std::vector<TrackRow>& track_rows() const { return rows_; }
+  const std::vector<TrackRow>& track_rows() const { return pass_.rows; }
 
   /// The choices so far and their reasons; complete after the last frame.
   std::vector<PlanEntry> plan() const;
@@ -79,10 +82,23 @@ class Session {
   /// Runs `work`, e.g. encoding, as a stage of the report.
   template <class Work>
   decltype(auto) measure(const std::string& stage, Work&& work) {
-    return report_.stages.measure(stage, std::forward<Work>(work));
+    return pass_.report.stages.measure(stage, std::forward<Work>(work));
   }
 
  private:
+  /// What one pass through the footage has come to so far.
+  struct Pass {
+    std::int64_t decoded = 0, in_range = 0;
+    std::optional<std::int64_t> last_drawn;
+    std::optional<std::string> damage;
+    std::vector<TrackRow> rows;
+    ThinnedSample<TrackRow> typical_rows;  ///< for the plan, as the next two
+    std::optional<Frame> last_image;
+    TrackRow last_row;
+    std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+    Report report;
+  };
+
   std::unique_ptr<FrameTrack> open_track();
 
   Recording recording_;
@@ -93,14 +109,7 @@ class Session {
   std::unique_ptr<FrameTrack> track_;  ///< null until the first frame is tracked
   ShotRenderer renderer_;
   std::optional<Progress> progress_;
-  std::int64_t decoded_ = 0, in_range_ = 0;
-  std::optional<std::string> damage_;
-  std::vector<TrackRow> rows_;
-  ThinnedSample<TrackRow> typical_rows_;  ///< for the plan
-  std::optional<Frame> last_image_;       ///< the range's last so far, for the plan too
-  TrackRow last_row_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  Report report_;
+  Pass pass_;
 };
 
 /// How many frames of a finished job passed through untouched, and what to check where all did; nothing where none did.

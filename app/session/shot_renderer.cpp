@@ -52,11 +52,18 @@ const BuiltScene& ShotRenderer::load() {
   return builder_.scene();
 }
 
+void ShotRenderer::open_gl() {
+  if (context_) return context_->make_current();
+  context_ = render::make_headless_context();
+  gl_renderer_ = render::gl_info().renderer;
+}
+
+void ShotRenderer::restart() {
+  adaptation_ = render::ToneAdaptation(settings_.exposure.adapt_bright_s, settings_.exposure.adapt_dark_s);
+}
+
 void ShotRenderer::prepare() {
-  if (context_)
-    context_->make_current();
-  else
-    context_ = render::make_headless_context(), gl_renderer_ = render::gl_info().renderer;
+  open_gl();
   if (is_built_) return;
   const BuiltScene& built = builder_.build(settings_, log_.warning_handler(), progress_handler(log_, "bake"));
   const render::CompositorSettings wanted = compositor_settings(settings_);

@@ -32,6 +32,12 @@ class ShotRenderer {
   /// Reads the scene's files, which view() needs. Quick, so that what is missing is found early.
   const BuiltScene& load();
 
+  /// Makes the GL context, or makes it current.
+  void open_gl();
+
+  /// The footage starts again: the exposure has adapted to nothing yet.
+  void restart();
+
   /// Makes the GL context, the bake and the compositor: all that takes time before the first frame. Several renderers may live
   /// side by side: each makes its context current before it draws.
   void prepare();

@@ -15,10 +15,10 @@ PendingFile pending_output(const std::string& path, bool overwrite) {
   if (fs::is_directory(path)) throw UsageError(path + ": is a folder; give the name of a file to write");
   if (!folder.empty() && !fs::is_directory(folder))
     throw Error(path + ": there is no folder " + folder.string() + "; make it first, or choose another output");
-  if (!overwrite && fs::exists(path))
-    throw UsageError(path + ": exists already; pass -y to overwrite it, or choose another output");
   if (fs::exists(path) && !fs::is_regular_file(path))
     throw UsageError(path + ": is a device or a pipe, which a file would replace; choose another output");
+  if (!overwrite && fs::exists(path))
+    throw UsageError(path + ": exists already; pass -y to overwrite it, or choose another output");
   return PendingFile(path);
 }
 

@@ -157,6 +157,37 @@ TEST_F(SessionTest, AnotherTrackStartsTheFootageAgain) {
   EXPECT_EQ(session.decode().value().image.number(), 0);
 }
 
+TEST_F(SessionTest, FootageThatStartsAgainIsCountedAnewAndDrawnTheSame) {
+  const Recording adapting = with({{"exposure.mode", "auto"}});
+  Session session(adapting, {.track_file = kRecording + "/poses.csv", .keeps_track = true}, log_);
+  const Composite first = drawn(session);
+  drawn(session);
+  session.apply(with({{"exposure.mode", "auto"}, {"tag.white_albedo", "0.5"}}).scene);
+  session.apply(adapting.scene);
+  expect_same(drawn(session), first);
+  EXPECT_EQ(session.report().frames, 1);
+  EXPECT_EQ(session.track_rows().size(), 1u);
+}
+
+TEST_F(SessionTest, SettingsThatCannotBeAppliedLeaveTheSessionAsItWas) {
+  Session session(recording(), one_frame(), log_);
+  const Recording broken = with({{"exposure.response", cache_->path("none.cube")}});
+  EXPECT_THAT(message_of<Error>([&] { session.apply(broken.scene); }), HasSubstr("none.cube"));
+  EXPECT_EQ(session.settings().exposure.response, recording().scene.exposure.response);
+  expect_same(drawn(session), drawn_afresh(recording()));
+}
+
+TEST_F(SessionTest, AFrameThatIsDrawnAgainCountsOnce) {
+  Session session(with({{"glare.threshold", "0.05"}}), one_frame(), log_);
+  FrameJob job = next_in_range(session);
+  session.render(job);
+  const Composite first = job.result;
+  session.render(job);
+  expect_same(job.result, first);
+  EXPECT_TRUE(first.glare_drawn);
+  EXPECT_EQ(session.report().glare_frames, 1);
+}
+
 /// The reference sees a frame as the overlay does: where its object changes nothing it is the plate, and the view is the same.
 TEST_F(SessionTest, TheReferenceSeesTheFrameThatIsDrawn) {
   for (const char* mode : {"match", "fixed", "auto"}) {
