@@ -54,7 +54,7 @@ std::vector<std::string> check(const ReplayResult& result, const std::string& ex
 }
 
 std::string name_of(const std::string& folder) {
-  return fs::path(folder).filename().string();
+  return fs::canonical(folder).filename().string();  // "matte/" has a name too
 }
 
 std::string sheet_path(const Options& options, const std::string& folder) {

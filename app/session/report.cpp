@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/support/output_file.hpp"
+#include "catchlight/util/text.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -14,12 +15,6 @@ namespace {
 double percentile(const std::vector<double>& sorted, double share) {
   const double rank = std::ceil(share * static_cast<double>(sorted.size()));
   return sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
-}
-
-std::string fixed(double value, int digits) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", digits, value);
-  return text;
 }
 
 std::string line_of(const StageTimer::Summary& stage) {
@@ -91,7 +86,7 @@ void write_report(const std::string& path, const Report& report, bool overwrite)
 std::string report_summary(const Report& report) {
   std::string text = std::to_string(report.frames) + " frames, " + std::to_string(report.tracked_frames) + " tracked, " +
                      std::to_string(report.coasting_frames) + " coasting, " + std::to_string(report.lost_frames) + " lost, " +
-                     fixed(report.fps, 1) + " frames/s";
+                     fixed_text(report.fps, 1) + " frames/s";
   if (!report.renderer.empty()) text += " on " + report.renderer;
   for (const StageTimer::Summary& stage : report.stages.summaries()) text += line_of(stage);
   for (const PlanEntry& entry : report.plan) text += "\n  " + entry.choice + " = " + entry.value + ": " + entry.reason;

@@ -62,12 +62,12 @@ Session::Session(Recording recording, SessionOptions options, Log& log)
 void Session::prepare() {
   renderer_.load();
   renderer_.open_gl();
-  if (!track_) track_ = open_track();
+  opened_track();
   measure("build", [&] { renderer_.prepare(); });
 }
 
 std::optional<FrameJob> Session::decode() {
-  if (!track_) track_ = open_track();
+  const FrameTrack& track = opened_track();
   if (!progress_) progress_.emplace(log_, options_.task, frames_to_read(footage_->info(), options_.range));
   try {
     std::optional<Frame> frame = measure("decode", [&] { return footage_->read(); });
@@ -83,12 +83,13 @@ std::optional<FrameJob> Session::decode() {
   progress_.reset();
   if (pass_.in_range == 0 && pass_.damage) throw DamagedMedia(*pass_.damage);
   if (pass_.in_range == 0) refuse_range(recording_.footage, options_.range, pass_.decoded, footage_->info().first_number);
-  if (track_->warning()) log_.warn(*track_->warning());
+  if (const auto warning = track.warning()) log_.warn(*warning);
   return std::nullopt;
 }
 
 void Session::track(FrameJob& job) {
-  job.track = track_->is_tracking() ? measure("track", [&] { return track_->row(job.image); }) : track_->row(job.image);
+  FrameTrack& track = opened_track();
+  job.track = track.is_tracking() ? measure("track", [&] { return track.row(job.image); }) : track.row(job.image);
   if (job.is_before_range) return;
   pass_.report.count(job.track);
   if (options_.keeps_track) pass_.rows.push_back(job.track);
@@ -105,18 +106,26 @@ void Session::render(FrameJob& job) {
   for (const render::PassTime& pass : renderer_.pass_times()) pass_.report.stages.add(pass.name, pass.ms);
 }
 
+bool Session::is_solved_whole() const {
+  return options_.track_file.empty() && !options_.is_causal && !footage_->info().is_live;
+}
+
+FrameTrack& Session::opened_track() {
+  if (!track_) track_ = open_track();
+  return *track_;
+}
+
 std::unique_ptr<FrameTrack> Session::open_track() {
   const SceneSettings& scene = recording_.scene;
   if (!options_.track_file.empty()) return make_recorded_track(tracking::read_track_file(options_.track_file), camera_, scene);
-  if (options_.is_causal || footage_->info().is_live) return make_tag_track(camera_, scene);
+  if (!is_solved_whole()) return make_tag_track(camera_, scene);
   return make_recorded_track(
       solve_shot(*open_footage(recording_), camera_, scene, options_.range, log_, pass_.report.stages).rows, camera_, scene);
 }
 
 std::vector<TrackRow> Session::track_range() {
-  const bool is_solved = options_.track_file.empty() && !options_.is_causal && !footage_->info().is_live;
   std::vector<TrackRow> rows;
-  if (is_solved) {
+  if (is_solved_whole()) {
     SolvedShot solved = solve_shot(*footage_, camera_, recording_.scene, options_.range, log_, pass_.report.stages);
     pass_.damage = solved.damage;
     for (const TrackRow& row : solved.rows)

@@ -99,6 +99,9 @@ class Session {
     Report report;
   };
 
+  /// Recorded footage, unless its track is given or is to be made frame by frame.
+  bool is_solved_whole() const;
+  FrameTrack& opened_track();
   std::unique_ptr<FrameTrack> open_track();
 
   Recording recording_;
@@ -106,7 +109,7 @@ class Session {
   Log& log_;
   std::unique_ptr<MediaSource> footage_;
   CameraModel camera_;
-  std::unique_ptr<FrameTrack> track_;  ///< null until the first frame is tracked
+  std::unique_ptr<FrameTrack> track_;  ///< null until it is first needed
   ShotRenderer renderer_;
   std::optional<Progress> progress_;
   Pass pass_;

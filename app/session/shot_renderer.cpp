@@ -40,10 +40,10 @@ ShotRenderer::~ShotRenderer() {
 
 void ShotRenderer::apply(const SceneSettings& settings) {
   const SceneSettings::Exposure &before = settings_.exposure, &after = settings.exposure;
-  if (before.adapt_bright_s != after.adapt_bright_s || before.adapt_dark_s != after.adapt_dark_s)
-    adaptation_ = render::ToneAdaptation(after.adapt_bright_s, after.adapt_dark_s);
+  const bool adapts_otherwise = before.adapt_bright_s != after.adapt_bright_s || before.adapt_dark_s != after.adapt_dark_s;
   settings_ = settings;
   is_loaded_ = is_built_ = false;
+  if (adapts_otherwise) restart();
 }
 
 const BuiltScene& ShotRenderer::load() {

@@ -54,7 +54,6 @@ class ShotRenderer {
   /// The times of the last render()'s passes; empty where nothing was drawn.
   const std::vector<render::PassTime>& pass_times() const { return pass_times_; }
 
-  const SceneSettings& settings() const { return settings_; }
   const std::vector<PlanEntry>& plan() const { return builder_.scene().plan; }
   const SceneBuilder& builder() const { return builder_; }
 

@@ -56,10 +56,6 @@ const CubeFaces& gl_cube_faces();
 
 /// The faces of ProbeLayout::cube or cube_cross.
 const CubeFaces& faces_of(ProbeLayout layout);
-
-inline bool is_cube(ProbeLayout layout) {
-  return layout == ProbeLayout::cube || layout == ProbeLayout::cube_cross;
-}
 inline bool is_disc(ProbeLayout layout) {
   return layout == ProbeLayout::angular || layout == ProbeLayout::mirror_ball;
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "catchlight/image.hpp"
+#include "render/mesh/bounds.hpp"
 
 namespace catchlight::render::reference {
 namespace {
@@ -16,12 +17,8 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kLift = 1e-5;
 
 double lift_for(const Mesh& mesh) {
-  glm::vec3 low(INFINITY), high(-INFINITY);
-  for (const Vertex& vertex : mesh.vertices) {
-    low = glm::min(low, vertex.position_m);
-    high = glm::max(high, vertex.position_m);
-  }
-  return mesh.vertices.empty() ? kLift : kLift * glm::distance(glm::dvec3(low), glm::dvec3(high));
+  const Bounds bounds = bounds_of(mesh);
+  return bounds.empty() ? kLift : kLift * glm::distance(glm::dvec3(bounds.min_m), glm::dvec3(bounds.max_m));
 }
 
 // The matrix of columns x, y, z with z along n (Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017).

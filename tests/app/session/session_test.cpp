@@ -169,6 +169,14 @@ TEST_F(SessionTest, FootageThatStartsAgainIsCountedAnewAndDrawnTheSame) {
   EXPECT_EQ(session.track_rows().size(), 1u);
 }
 
+TEST_F(SessionTest, AFrameFromBeforeNewSettingsIsTrackedByThem) {
+  Session session(recording(), {.track_file = kRecording + "/poses.csv"}, log_);
+  FrameJob job = session.decode().value();
+  session.apply(with({{"tag.white_albedo", "0.5"}}).scene);
+  session.track(job);
+  EXPECT_TRUE(job.track.found);
+}
+
 TEST_F(SessionTest, SettingsThatCannotBeAppliedLeaveTheSessionAsItWas) {
   Session session(recording(), one_frame(), log_);
   const Recording broken = with({{"exposure.response", cache_->path("none.cube")}});
