@@ -13,7 +13,7 @@
 #include "catchlight/composite.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/image.hpp"
-#include "render/compositor.hpp"
+#include "render/gl_compositor.hpp"
 #include "render/probe/probe_split.hpp"
 #include "render/render_scene.hpp"
 #include "render/settings.hpp"
@@ -91,7 +91,7 @@ class Studio {
     render::FrameView view = job_->view;
     view.exposure /= glm::vec3(part.share);
     const auto plate = [&](const PixelRect& rect) { return job_->image.rgb(rect); };
-    render::Compositor compositor(part.scene, compositor_settings(settings()));
+    render::GlCompositor compositor(part.scene, compositor_settings(settings()));
     return exposed(*compositor.render(view, plate, true).layers, part.share);
   }
 

@@ -3,7 +3,7 @@
 
 #include "catchlight/pixel_rect.hpp"
 #include "catchlight/plate.hpp"
-#include "render/compositor.hpp"
+#include "render/gl_compositor.hpp"
 #include "render/frame_view.hpp"
 #include "render/render_scene.hpp"
 #include "tests/support/gl_fixture.hpp"
@@ -27,7 +27,7 @@ RenderScene ball_scene(bool glares) {
 void frame(benchmark::State& state) {
   const auto height = static_cast<int>(state.range(0)), width = height == 480 ? 640 : 1280;
   const bool glares = state.range(1) != 0;
-  Compositor compositor(ball_scene(glares), {});
+  GlCompositor compositor(ball_scene(glares), {});
   FrameView view = view_from_above(0.5);
   view.camera = {.width_px = width,
                  .height_px = height,

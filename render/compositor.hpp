@@ -1,45 +1,37 @@
-// Draws the virtual layer and puts it into the frame. Never knows whether a window exists: draws into its own framebuffers.
+// Draws the virtual layer and puts it into the frame: the face that every renderer has.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "catchlight/composite.hpp"
 #include "catchlight/plate.hpp"
+#include "catchlight/tone_curve.hpp"
 #include "render/frame_view.hpp"
 #include "render/pass_time.hpp"
-#include "render/render_scene.hpp"
-#include "render/settings.hpp"
 
 namespace catchlight::render {
 
-/// The compositor needs a current GL 4.5 core context for its whole life. Throws Error where a shader does not compile (file and
-/// log) or a texture is too large.
+/// A renderer of one scene: `GlCompositor` or `CpuCompositor`. The same input gives the same bytes; no state but buffers, and
+/// what never changes of the scene, is kept between frames.
 class Compositor {
  public:
-  Compositor(const RenderScene& scene, const CompositorSettings& settings);
-  ~Compositor();
-  Compositor(Compositor&&) noexcept;
-  Compositor& operator=(Compositor&&) noexcept;
+  virtual ~Compositor() = default;
 
-  /// The frame with the virtual layer in it. The same input gives the same bytes; no state but buffers is kept between frames.
-  /// With layers there is no tone curve: they are the scene's light, for a compositing package to expose.
-  Composite render(const FrameView& view, const PlateReader& plate, bool want_layers = false);
+  /// The frame with the virtual layer in it. With layers there is no tone curve: they are the scene's light, for a compositing
+  /// package to expose.
+  virtual Composite render(const FrameView& view, const PlateReader& plate, bool want_layers = false) = 0;
 
-  /// The curve that the frame calls for (Composite::tone_wanted) alone: it is drawn, but neither coded nor read back.
-  ToneCurve meter(const FrameView& view, const PlateReader& plate);
+  /// The curve that the frame calls for (Composite::tone_wanted) alone: nothing is coded.
+  virtual ToneCurve meter(const FrameView& view, const PlateReader& plate) = 0;
 
   /// How long the last frame's passes took.
-  const std::vector<PassTime>& pass_times() const;
+  virtual const std::vector<PassTime>& pass_times() const = 0;
 
-  /// Compiles anew what was edited in the settings' shader_folder; a program that does not compile stays as it was. Returns what
-  /// is wrong with those, by file and line.
-  std::vector<std::string> reload_shaders();
-
- private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+ protected:
+  Compositor() = default;
+  Compositor(Compositor&&) noexcept = default;
+  Compositor& operator=(Compositor&&) noexcept = default;
 };
 
 }  // namespace catchlight::render

@@ -5,6 +5,7 @@
 #include "app/settings/look.hpp"
 #include "app/settings/parameters.hpp"
 #include "app/support/progress.hpp"
+#include "render/gl_compositor.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -69,7 +70,7 @@ void ShotRenderer::prepare() {
   const render::CompositorSettings wanted = compositor_settings(settings_);
   if (!compositor_ || drawn_version_ != built.version || drawn_settings_ != wanted) {
     compositor_.reset();
-    compositor_ = std::make_unique<render::Compositor>(built.scene, wanted);
+    compositor_ = std::make_unique<render::GlCompositor>(built.scene, wanted);
     drawn_version_ = built.version;
     drawn_settings_ = wanted;
   }

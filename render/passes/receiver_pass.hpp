@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <span>
 
 #include "catchlight/pixel_rect.hpp"
 #include "render/gl/fullscreen.hpp"
@@ -11,15 +10,11 @@
 #include "render/mesh/bounds.hpp"
 #include "render/passes/light_transfer.hpp"
 #include "render/passes/shadowed_lights.hpp"
-#include "render/passes/split_light.hpp"
+#include "render/split_light.hpp"
 #include "render/transfer/plane_rect.hpp"
 #include "render/transfer/transfer.hpp"
 
 namespace catchlight::render {
-
-/// The part of the plane onto which samples that shine from above it may cast the shadow of what lies in the box (tag frame), no
-/// farther away than 16 times its size. Empty (min beyond max) without any.
-PlaneRect shadow_reach(std::span<const LightSample> samples_tag, const Bounds& box);
 
 class ReceiverPass {
  public:

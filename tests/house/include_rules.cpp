@@ -19,7 +19,7 @@ struct Rule {
   std::string reason;
 };
 
-const std::vector<std::string> kNeedsGl = {"render/gl/", "render/passes/", "render/compositor."};
+const std::vector<std::string> kNeedsGl = {"render/gl/", "render/passes/", "render/gl_compositor."};
 const std::vector<std::string> kGl = {"epoxy/", "EGL/", "GL/"}, kFfmpeg = {"libav", "libsw"},
                                kFrontEnds = {"CLI/", "imgui", "GLFW/"};
 const std::vector<std::string> kLibraries = {"catchlight/", "tracking/", "render/"};
@@ -30,7 +30,7 @@ const std::vector<Rule> kRules = {
     {kLibraries, {}, {"app/"}, "libraries do not know the program"},
     {kLibraries, {}, {"tests/", "bench/"}, "the product does not know its tests"},
     {{"app/"}, {}, {"tests/", "bench/"}, "the product does not know its tests"},
-    {kLibraries, kNeedsGl, kGl, "only render/gl, render/passes and the compositor see GL"},
+    {kLibraries, kNeedsGl, kGl, "only render/gl, render/passes and the GL compositor see GL"},
     {{"render/"}, kNeedsGl, kNeedsGl, "what needs no GL includes nothing that does"},
     {{"app/media/"}, {}, kNeedsGl, "footage needs no GL"},
     {{"app/media/"}, {}, {"tracking/"}, "footage knows no tags"},

@@ -28,7 +28,7 @@ class House : public ::testing::Test {
 
 TEST_F(House, IsRead) {
   EXPECT_GT(tree().size(), 400u);
-  EXPECT_THAT(tree().at("render/compositor.cpp").includes, ::testing::Contains("render/compositor.hpp"));
+  EXPECT_THAT(tree().at("render/gl_compositor.cpp").includes, ::testing::Contains("render/gl_compositor.hpp"));
 }
 
 TEST_F(House, HasNoForbiddenInclude) {
@@ -74,14 +74,14 @@ INSTANTIATE_TEST_SUITE_P(
                       Fault{"tracking/a.cpp", "epoxy/gl.h"}, Fault{"render/camera/a.cpp", "tracking/tracker.hpp"},
                       Fault{"render/passes/a.cpp", "app/media/b.hpp"}, Fault{"render/image/a.hpp", "render/gl/gl_objects.hpp"},
                       Fault{"render/math/a.cpp", "epoxy/gl.h"}, Fault{"render/mesh/a.cpp", "render/passes/b.hpp"},
-                      Fault{"render/probe/a.cpp", "EGL/egl.h"}, Fault{"render/rays/a.cpp", "render/compositor.hpp"},
+                      Fault{"render/probe/a.cpp", "EGL/egl.h"}, Fault{"render/rays/a.cpp", "render/gl_compositor.hpp"},
                       Fault{"render/transfer/a.cpp", "render/gl/shader.hpp"}, Fault{"render/glare/a.cpp", "epoxy/gl.h"},
                       Fault{"render/tone/a.cpp", "render/passes/b.hpp"}, Fault{"render/camera/a.cpp", "render/gl/b.hpp"},
                       Fault{"render/reference/a.cpp", "render/gl/b.hpp"}, Fault{"render/settings.hpp", "render/gl/b.hpp"},
                       Fault{"render/gl/a.cpp", "GLFW/glfw3.h"}, Fault{"render/passes/a.cpp", "imgui.h"},
                       Fault{"tracking/a.cpp", "CLI/CLI.hpp"}, Fault{"render/gl/a.cpp", "libavutil/frame.h"},
                       Fault{"app/session/a.cpp", "libswscale/swscale.h"}, Fault{"app/media/read/a.cpp", "tracking/tracker.hpp"},
-                      Fault{"app/media/write/a.cpp", "render/compositor.hpp"}, Fault{"app/main.cpp", "tests/support/a.hpp"},
+                      Fault{"app/media/write/a.cpp", "render/gl_compositor.hpp"}, Fault{"app/main.cpp", "tests/support/a.hpp"},
                       Fault{"catchlight/a.hpp", "render/math/sh.hpp"}, Fault{"catchlight/util/a.hpp", "shaders/interface.h"},
                       Fault{"catchlight/a.hpp", "opencv2/core.hpp"}, Fault{"catchlight/a.hpp", "unistd.h"}));
 

@@ -11,7 +11,7 @@
 #include "catchlight/pixel_rect.hpp"
 #include "catchlight/plate.hpp"
 #include "catchlight/response.hpp"
-#include "render/compositor.hpp"
+#include "render/gl_compositor.hpp"
 #include "render/frame_view.hpp"
 #include "render/render_scene.hpp"
 #include "tests/support/gl_fixture.hpp"
@@ -48,7 +48,7 @@ RenderScene shadow_only(double ratio) {
 
 TEST_F(CompositorGl, WhiteFurnaceShowsTheAlbedoExactly) {
   const glm::vec3 albedo(0.8f, 0.5f, 0.2f);
-  Compositor compositor(matte_sphere(albedo), {});
+  GlCompositor compositor(matte_sphere(albedo), {});
   const Composite composite = compositor.render(view_from_above(), plate_u8(128));
   for (const int x : {64, 70, 79, 85, 95}) {
     // A tenth of a code: llvmpipe interpolates what is constant over a small triangle to 5e-4 of it.
@@ -63,7 +63,7 @@ TEST_F(CompositorGl, WhiteFurnaceNeverGivesBackMoreThanCame) {
       material.base_color = glm::vec3(1);
       material.roughness = roughness;
       material.metallic = metallic;
-      Compositor compositor(constant_scene(sphere(0.05, {0, 0, 0}), material, glm::vec3(1)), {});
+      GlCompositor compositor(constant_scene(sphere(0.05, {0, 0, 0}), material, glm::vec3(1)), {});
       FrameView view = view_from_above();
       view.color.transfer = TransferFunction::linear;
       const Composite composite = compositor.render(view, plate_f32([](int, int) { return glm::vec3(0); }));
@@ -83,7 +83,7 @@ TEST_F(CompositorGl, All256CodesSurviveDecodeAndEncode) {
   // Glare of strength 0 is drawn nowhere; a shadow of half the light in one corner makes the shader code every pixel it is asked
   // for.
   RenderScene scene = shadow_only(1.0 - 2e-6);
-  Compositor compositor(scene, {});
+  GlCompositor compositor(scene, {});
   const Composite composite =
       compositor.render(view_from_above(), plate_u8([](int x, int y) { return glm::ivec3((16 * y + x) % 256); }));
   int seen = 0;
@@ -100,7 +100,7 @@ TEST_F(CompositorGl, All256CodesSurviveDecodeAndEncode) {
 
 TEST_F(CompositorGl, EveryTransferFunctionIsDecodedAndCodedAsStated) {
   // Half the light must come out as the code of half the light, by catchlight.hpp's own curves.
-  Compositor compositor(shadow_only(0.5), {});
+  GlCompositor compositor(shadow_only(0.5), {});
   for (const auto transfer : {TransferFunction::srgb, TransferFunction::linear, TransferFunction::gamma22,
                               TransferFunction::gamma28, TransferFunction::pq, TransferFunction::hlg}) {
     FrameView view = view_from_above();
@@ -115,7 +115,7 @@ TEST_F(CompositorGl, EveryTransferFunctionIsDecodedAndCodedAsStated) {
 }
 
 TEST_F(CompositorGl, WhatNothingVirtualReachesIsMarkedUnchanged) {
-  Compositor compositor(matte_sphere(), {});
+  GlCompositor compositor(matte_sphere(), {});
   const Composite composite = compositor.render(view_from_above(), plate_u8([](int x, int y) { return glm::ivec3(x, y, 77); }));
   const PixelRect& rect = composite.rect;
   ASSERT_FALSE(rect.empty());
@@ -132,7 +132,7 @@ TEST_F(CompositorGl, WhatNothingVirtualReachesIsMarkedUnchanged) {
 }
 
 TEST_F(CompositorGl, ThePlateIsAskedForOnlyWhatIsReached) {
-  Compositor compositor(matte_sphere(), without_glare());
+  GlCompositor compositor(matte_sphere(), without_glare());
   const PlateReader plate = plate_u8(100);
   PixelRect asked;
   const Composite composite = compositor.render(view_from_above(), [&](const PixelRect& rect) {
@@ -145,7 +145,7 @@ TEST_F(CompositorGl, ThePlateIsAskedForOnlyWhatIsReached) {
 }
 
 TEST_F(CompositorGl, ExposureScalesLinearly) {
-  Compositor compositor(matte_sphere(), without_glare());
+  GlCompositor compositor(matte_sphere(), without_glare());
   FrameView view = view_from_above();
   view.color.transfer = TransferFunction::linear;
   const PlateReader black = plate_f32([](int, int) { return glm::vec3(0); });
@@ -162,7 +162,7 @@ TEST_F(CompositorGl, UnlitSurfacesShowTheirColourWhateverLightAndExposureAre) {
   label.unlit_color = {0.9f, 0.02f, 0.3f};
   FrameView view = view_from_above();
   for (const float radiance : {0.0f, 1.0f, 40.0f}) {
-    Compositor compositor(constant_scene(sphere(0.05, {0, 0, 0.05}), label, glm::vec3(radiance)), {});
+    GlCompositor compositor(constant_scene(sphere(0.05, {0, 0, 0.05}), label, glm::vec3(radiance)), {});
     for (const float exposure : {0.01f, 1.0f, 7.0f}) {
       view.exposure = glm::vec3(exposure, 2 * exposure, 0.3f * exposure);
       const Composite composite = compositor.render(view, plate_u8(128));
@@ -174,7 +174,7 @@ TEST_F(CompositorGl, UnlitSurfacesShowTheirColourWhateverLightAndExposureAre) {
 }
 
 TEST_F(CompositorGl, IntegerPlatesEndAtWhite) {
-  Compositor compositor(matte_sphere(glm::vec3(1)), without_glare());
+  GlCompositor compositor(matte_sphere(glm::vec3(1)), without_glare());
   FrameView view = view_from_above();
   view.exposure = glm::vec3(50);
   EXPECT_EQ(pixel_at(compositor.render(view, plate_u8(10)), 80, 60), glm::vec4(1));
@@ -186,8 +186,8 @@ TEST_F(CompositorGl, BlackLevelLiesOverObjectAndShadowAlike) {
   view.color.transfer = TransferFunction::linear;
   view.black = {0.02f, 0.03f, 0.04f};
   const PlateReader plate = plate_f32([](int, int) { return glm::vec3(0.5f); });
-  Compositor black_object(matte_sphere(glm::vec3(0)), {});
-  Compositor total_shadow(shadow_only(0.0), {});
+  GlCompositor black_object(matte_sphere(glm::vec3(0)), {});
+  GlCompositor total_shadow(shadow_only(0.0), {});
   const Composite object = black_object.render(view, plate), shadow = total_shadow.render(view, plate);
   for (int c = 0; c < 3; ++c) {
     EXPECT_NEAR(pixel_at(object, 80, 60)[c], view.black[c], 1e-6);
@@ -201,7 +201,7 @@ TEST_F(CompositorGl, SameInputGivesTheSameBytes) {
   FrameView view = view_from_above();
   view.exposure = glm::vec3(4);
   const PlateReader plate = plate_u8([](int x, int y) { return glm::ivec3(x, y, x ^ y); });
-  Compositor first(scene, {}), second(scene, {});
+  GlCompositor first(scene, {}), second(scene, {});
   const Composite a = first.render(view, plate);
   FrameView elsewhere = view;
   elsewhere.camera_from_tag.translation_m.x += 0.02;
@@ -219,7 +219,7 @@ TEST_F(CompositorGl, TheObjectsEdgeMixesByCoverageInLinearLight) {
   double last = -1;
   for (const double covered : {0.0, 0.5, 1.0}) {
     const double edge_px = 81 - covered;  // the pixel's own edges are at 80 and 81, counted from the picture's left edge
-    Compositor compositor(
+    GlCompositor compositor(
         constant_scene(square({(edge_px - 80) * px_m, -0.02}, {0.02, 0.02}, 0), matte(glm::vec3(1)), glm::vec3(1)),
         without_glare());
     const float value = pixel_at(compositor.render(view, plate_f32([](int, int) { return glm::vec3(0); })), 80, 60).x;
@@ -230,7 +230,7 @@ TEST_F(CompositorGl, TheObjectsEdgeMixesByCoverageInLinearLight) {
 }
 
 TEST_F(CompositorGl, ViewsWithoutTheObjectAreEmpty) {
-  Compositor compositor(matte_sphere(), {});
+  GlCompositor compositor(matte_sphere(), {});
   const PlateReader never = [](const PixelRect&) -> Plate { throw Error("the plate must not be asked for"); };
   FrameView behind = view_from_above(-0.5), aside = view_from_above();
   aside.camera_from_tag.translation_m.x = 3;
@@ -240,7 +240,7 @@ TEST_F(CompositorGl, ViewsWithoutTheObjectAreEmpty) {
 }
 
 TEST_F(CompositorGl, AnObjectPartlyOutOfViewStaysInThePicture) {
-  Compositor compositor(matte_sphere(), {});
+  GlCompositor compositor(matte_sphere(), {});
   FrameView view = view_from_above();
   view.camera_from_tag.translation_m = {0.2, 0.15, 0.5};
   const Composite composite = compositor.render(view, plate_u8(20));
@@ -250,7 +250,7 @@ TEST_F(CompositorGl, AnObjectPartlyOutOfViewStaysInThePicture) {
 }
 
 TEST_F(CompositorGl, AnObjectAroundTheCameraIsCutAtTheNearPlane) {
-  Compositor compositor(constant_scene(sphere(0.3, {0, 0, 0.4}), matte(glm::vec3(0.5f)), glm::vec3(1)), {});
+  GlCompositor compositor(constant_scene(sphere(0.3, {0, 0, 0.4}), matte(glm::vec3(0.5f)), glm::vec3(1)), {});
   const Composite composite = compositor.render(view_from_above(), plate_u8(0));
   EXPECT_EQ(composite.rect, (PixelRect{0, 0, 160, 120}));
   for (const float value : composite.rgba) EXPECT_TRUE(std::isfinite(value));
@@ -258,7 +258,7 @@ TEST_F(CompositorGl, AnObjectAroundTheCameraIsCutAtTheNearPlane) {
 }
 
 TEST_F(CompositorGl, TheReceiverIsNotSeenFromBelow) {
-  Compositor compositor(shadow_only(0.2), {});
+  GlCompositor compositor(shadow_only(0.2), {});
   FrameView view = view_from_above();
   view.camera_from_tag.rotation = glm::dmat3(1.0);  // looks along +z from under the table
   EXPECT_TRUE(compositor.render(view, plate_u8(128)).rect.empty());
@@ -271,7 +271,7 @@ TEST_F(CompositorGl, NotANumberStaysWhereItIs) {
   scene.mesh.vertices[200].color = glm::vec3(kNaN);
   scene.mesh.materials[0].metallic = 1;
   for (Image& level : scene.reflections.levels) level.data[0] = std::numeric_limits<float>::infinity();
-  Compositor compositor(scene, {});
+  GlCompositor compositor(scene, {});
   FrameView view = view_from_above();
   view.exposure = glm::vec3(10);
   const Composite composite = compositor.render(view, plate_u8(50));
@@ -279,7 +279,7 @@ TEST_F(CompositorGl, NotANumberStaysWhereItIs) {
 }
 
 TEST_F(CompositorGl, NotANumberInAFloatPlateIsKeptWhereUntouchedAndCoveredByTheObject) {
-  Compositor compositor(matte_sphere(), without_glare());
+  GlCompositor compositor(matte_sphere(), without_glare());
   FrameView view = view_from_above();
   view.color.transfer = TransferFunction::linear;
   const Composite composite = compositor.render(view, plate_f32([](int, int) { return glm::vec3(kNaN); }));
@@ -290,7 +290,7 @@ TEST_F(CompositorGl, NotANumberInAFloatPlateIsKeptWhereUntouchedAndCoveredByTheO
 }
 
 TEST_F(CompositorGl, PassesAreTimedByName) {
-  Compositor compositor(matte_sphere(), {});
+  GlCompositor compositor(matte_sphere(), {});
   compositor.render(view_from_above(), plate_u8(128));
   std::vector<std::string> names;
   for (const PassTime& time : compositor.pass_times()) {
@@ -303,20 +303,20 @@ TEST_F(CompositorGl, PassesAreTimedByName) {
 TEST_F(CompositorGl, DataThatDoNotFitTogetherAreRefusedByName) {
   RenderScene scene = matte_sphere();
   scene.light.pop_back();
-  EXPECT_THAT([&] { Compositor(scene, {}); }, ThrowsMessage<Error>(HasSubstr("light coefficients")));
+  EXPECT_THAT([&] { GlCompositor(scene, {}); }, ThrowsMessage<Error>(HasSubstr("light coefficients")));
   scene = matte_sphere();
   scene.transfer.object.pop_back();
-  EXPECT_THAT([&] { Compositor(scene, {}); }, ThrowsMessage<Error>(HasSubstr("transfer coefficients")));
+  EXPECT_THAT([&] { GlCompositor(scene, {}); }, ThrowsMessage<Error>(HasSubstr("transfer coefficients")));
   scene = matte_sphere();
   scene.mesh.indices[7] = 1u << 30;
-  EXPECT_THAT([&] { Compositor(scene, {}); }, ThrowsMessage<Error>(HasSubstr("beyond the vertices")));
+  EXPECT_THAT([&] { GlCompositor(scene, {}); }, ThrowsMessage<Error>(HasSubstr("beyond the vertices")));
   scene = matte_sphere();
   scene.reflections.levels[0].height -= 1;
-  EXPECT_THAT([&] { Compositor(scene, {}); }, ThrowsMessage<Error>(HasSubstr("six square RGB faces")));
+  EXPECT_THAT([&] { GlCompositor(scene, {}); }, ThrowsMessage<Error>(HasSubstr("six square RGB faces")));
 }
 
 TEST_F(CompositorGl, FramesThatMakeNoSenseAreRefusedByName) {
-  Compositor compositor(matte_sphere(), {});
+  GlCompositor compositor(matte_sphere(), {});
   FrameView view = view_from_above();
   view.camera_from_tag.translation_m.y = kNaN;
   EXPECT_THAT([&] { compositor.render(view, plate_u8(0)); }, ThrowsMessage<Error>(HasSubstr("pose")));

@@ -1,7 +1,7 @@
 // A few whole pictures, and the comparator that guards them.
 #include "catchlight/color.hpp"
 #include "catchlight/composite.hpp"
-#include "render/compositor.hpp"
+#include "render/gl_compositor.hpp"
 #include "render/frame_view.hpp"
 #include "render/render_scene.hpp"
 #include "render/settings.hpp"
@@ -86,7 +86,7 @@ cv::Mat picture(const RenderScene& scene, const FrameView& view, const Composito
       result.at<cv::Vec3b>(y, x) = cv::Vec3b(static_cast<uchar>(code.b), static_cast<uchar>(code.g), static_cast<uchar>(code.r));
     }
   }
-  const Composite composite = Compositor(scene, settings).render(view, plate_u8(table));
+  const Composite composite = GlCompositor(scene, settings).render(view, plate_u8(table));
   for (int y = composite.rect.y; y < composite.rect.y + composite.rect.height; ++y) {
     for (int x = composite.rect.x; x < composite.rect.x + composite.rect.width; ++x) {
       const glm::vec4 pixel = pixel_at(composite, x, y);

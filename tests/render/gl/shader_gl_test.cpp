@@ -1,7 +1,7 @@
 // Shaders: what C++ and GLSL must agree on, and what a broken one says.
 #include "catchlight/error.hpp"
 #include "embedded/embedded_shaders.hpp"
-#include "render/compositor.hpp"
+#include "render/gl_compositor.hpp"
 #include "render/gl/fullscreen.hpp"
 #include "render/gl/gl_context.hpp"
 #include "render/gl/shader_library.hpp"
@@ -111,20 +111,20 @@ RenderScene white_ball() {
   return constant_scene(sphere(0.05, {0, 0, 0}), Material{}, glm::vec3(1));
 }
 
-float red_in_the_middle(Compositor& compositor) {
+float red_in_the_middle(GlCompositor& compositor) {
   return pixel_at(compositor.render(view_from_above(), plate_u8(200)), 80, 60).x;
 }
 
 TEST_F(ShaderGl, AFolderReplacesTheEmbeddedFiles) {
   ShaderFolder folder;
   folder.replace_in("composite.frag", "vec4(new_code, changed", "vec4(vec3(0.25), changed");
-  Compositor compositor(white_ball(), with_shaders_from(folder));
+  GlCompositor compositor(white_ball(), with_shaders_from(folder));
   EXPECT_EQ(red_in_the_middle(compositor), 0.25f);
 }
 
 TEST_F(ShaderGl, ReloadTakesUpWhatWasEditedAndKeepsWhatDoesNotCompile) {
   ShaderFolder folder;
-  Compositor compositor(white_ball(), with_shaders_from(folder));
+  GlCompositor compositor(white_ball(), with_shaders_from(folder));
   const float as_shipped = red_in_the_middle(compositor);
   EXPECT_THAT(compositor.reload_shaders(), IsEmpty()) << "nothing was edited";
   EXPECT_EQ(red_in_the_middle(compositor), as_shipped);
@@ -152,7 +152,7 @@ TEST_F(ShaderGl, ReloadLightsAnewWhatIsLitOnce) {
   Material white;
   white.base_color = glm::vec3(1);
   white.dielectric_f0 = 0;
-  Compositor compositor(constant_scene(sphere(0.05, {0, 0, 0}), white, glm::vec3(0.5f)), with_shaders_from(folder));
+  GlCompositor compositor(constant_scene(sphere(0.05, {0, 0, 0}), white, glm::vec3(0.5f)), with_shaders_from(folder));
   EXPECT_GT(red_in_the_middle(compositor), 0.5f);
   folder.replace_in("transfer.vert", "transferred = mix(", "transferred = 0.0 * mix(");
   EXPECT_THAT(compositor.reload_shaders(), IsEmpty());

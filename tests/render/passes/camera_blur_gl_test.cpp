@@ -4,7 +4,7 @@
 #include "catchlight/plate.hpp"
 #include "catchlight/projection.hpp"
 #include "catchlight/rigid_transform.hpp"
-#include "render/compositor.hpp"
+#include "render/gl_compositor.hpp"
 #include "render/frame_view.hpp"
 #include "render/passes/camera_blur_pass.hpp"
 #include "render/render_scene.hpp"
@@ -32,7 +32,7 @@ class CameraBlurGl : public GlTest {
   }
 
   static Composite seen(const FrameView& view) {
-    Compositor compositor(white_square(), without_glare());
+    GlCompositor compositor(white_square(), without_glare());
     return compositor.render(view, black());
   }
 };
@@ -137,7 +137,7 @@ TEST_F(CameraBlurGl, ABlurredEdgeIsTheBoxesRamp) {
 
 TEST_F(CameraBlurGl, AStillViewIsTheSameToTheLastBit) {
   FrameView view = linear_view_from_above();
-  Compositor compositor(white_square(), without_glare());
+  GlCompositor compositor(white_square(), without_glare());
   compositor.render(view, black());  // lights the object
   const Composite plain = compositor.render(view, black());
   const std::size_t passes = compositor.pass_times().size();
@@ -152,7 +152,7 @@ TEST_F(CameraBlurGl, TheShadowIsBlurredAsTheObjectIs) {
   RenderScene scene = white_square();
   add_receiver(scene.transfer, {.min_m = {-0.15f, -0.1f}, .max_m = {0.15f, 0.1f}, .columns = 121, .rows = 81},
                [](double x, double) { return std::abs(x) < 0.08 ? 0.5 : 1.0; });
-  Compositor compositor(scene, without_glare());
+  GlCompositor compositor(scene, without_glare());
   FrameView view = moving({12, 0});
   const Composite sharp = compositor.render(linear_view_from_above(), linear_grey_plate()),
                   blurred = compositor.render(view, linear_grey_plate());

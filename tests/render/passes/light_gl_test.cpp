@@ -5,7 +5,7 @@
 
 #include "catchlight/composite.hpp"
 #include "catchlight/error.hpp"
-#include "render/compositor.hpp"
+#include "render/gl_compositor.hpp"
 #include "render/frame_view.hpp"
 #include "render/render_scene.hpp"
 #include "tests/support/gl_fixture.hpp"
@@ -60,7 +60,7 @@ TEST_F(LightGl, AShadowFallsWhereTheLightThrowsIt) {
   for (const glm::dvec3& towards : {glm::dvec3(0.9, 0, 1), {-1, 0.5, 1}, {0.2, -1.2, 1}}) {
     const RenderScene scene =
         lit_scene(square(glm::dvec2(-kHalf_m), glm::dvec2(kHalf_m), kHeight_m), matte(0), 0.5f, {light_from(towards, 2)});
-    Compositor compositor(scene, without_glare());
+    GlCompositor compositor(scene, without_glare());
     const Composite composite = compositor.render(linear_view_from_above(), linear_grey_plate());
     const glm::dvec2 middle = -kHeight_m / towards.z * glm::dvec2(towards);
     const double of_light = 2 * glm::normalize(towards).z / kPi, in_shadow = 0.5 / (0.5 + of_light);
@@ -81,7 +81,7 @@ TEST_F(LightGl, AWideLightHasThePenumbraOfItsWidth) {
   std::vector<LightSample> strip;
   for (int i = 0; i < 64; ++i) strip.push_back(light_from({0.8 + 0.6 * ((i + 0.5) / 64 - 0.5), 0, 1}, 1.0 / 64));
   const RenderScene scene = lit_scene(square({0, -0.1}, {0.1, 0.1}, kHeight_m), matte(0), 0.0f, strip);
-  Compositor compositor(scene, without_glare());
+  GlCompositor compositor(scene, without_glare());
   const Composite composite = compositor.render(linear_view_from_above(), linear_grey_plate());
   for (const double share : {-0.8, -0.5, 0.0, 0.5, 0.8}) {
     const double x = -0.8 * kHeight_m + share * 0.3 * kHeight_m;
@@ -93,7 +93,7 @@ TEST_F(LightGl, OnePartOfAnObjectShadowsAnother) {
   Mesh mesh = square({-0.08, -0.04}, {0.08, 0.04}, 0.01);
   append(mesh, square({-0.01, -0.01}, {0.01, 0.01}, 0.05));
   const RenderScene scene = lit_scene(mesh, matte(0.6f), 0.0f, {light_from({1, 0, 1}, 2)});
-  Compositor compositor(scene, without_glare());
+  GlCompositor compositor(scene, without_glare());
   const Composite composite = compositor.render(linear_view_from_above(), linear_grey_plate());
   const double lit = 0.6 / kPi * 2 * std::sqrt(0.5);
   const auto floor_at = [&](double x) {
@@ -109,7 +109,7 @@ TEST_F(LightGl, ASphereHasNoAcneAndNoLeak) {
   const glm::dvec3 towards = glm::normalize(glm::dvec3(0.6, 0.3, 1)), middle(0, 0, 0.06);
   constexpr double kRadius_m = 0.05;
   const RenderScene scene = lit_scene(sphere(kRadius_m, middle, 96), matte(1), 0.0f, {light_from(towards, 1)});
-  Compositor compositor(scene, without_glare());
+  GlCompositor compositor(scene, without_glare());
   const Composite composite = compositor.render(linear_view_from_above(), linear_grey_plate());
   const glm::dvec3 camera(0, 0, 0.5);
   int compared = 0;
@@ -162,7 +162,7 @@ TEST_F(LightGl, RoughMetalLosesNothingInAWhiteFurnace) {
     metal.base_color = glm::vec3(1);
     metal.metallic = 1;
     metal.roughness = roughness;
-    Compositor compositor(constant_scene(sphere(0.05, {0, 0, 0.06}), metal, glm::vec3(1)), without_glare());
+    GlCompositor compositor(constant_scene(sphere(0.05, {0, 0, 0.06}), metal, glm::vec3(1)), without_glare());
     const Composite composite = compositor.render(linear_view_from_above(), linear_grey_plate());
     for (const int x : {66, 74, 80, 86, 94}) EXPECT_NEAR(pixel_at(composite, x, 60).x, 1, 0.02) << roughness << ", " << x;
   }
@@ -175,7 +175,7 @@ TEST_F(LightGl, AGlossySurfaceShowsAHighlight) {
   metal.roughness = 0.5f;
   const glm::dvec3 towards = glm::normalize(glm::dvec3(0.5, 0, 1)), n(0, 0, 1);
   const RenderScene scene = lit_scene(square({-0.1, -0.1}, {0.1, 0.1}, 0.05), metal, 0.0f, {light_from(towards, 1)});
-  Compositor compositor(scene, without_glare());
+  GlCompositor compositor(scene, without_glare());
   const Composite composite = compositor.render(linear_view_from_above(), linear_grey_plate());
   for (const double x : {-0.08, -0.03, 0.0, 0.04, 0.08}) {
     const glm::ivec2 p = pixel_over(x, 0, 0.05);
@@ -198,7 +198,7 @@ TEST_F(LightGl, AWideLightWidensTheHighlightAndKeepsItsEnergy) {
     many.push_back(light_from({kHalf * ((i % 8 + 0.5) / 4 - 1), kHalf * ((i / 8 + 0.5) / 4 - 1), 1}, 1.0 / 64));
   const LightSample one = light_from({0, 0, 1}, 1, kHalf / std::sqrt(3.0));
   const auto row_of = [&](const std::vector<LightSample>& lights) {
-    Compositor compositor(lit_scene(square({-0.19, -0.14}, {0.19, 0.14}, 0.001), metal, 0.0f, lights), without_glare());
+    GlCompositor compositor(lit_scene(square({-0.19, -0.14}, {0.19, 0.14}, 0.001), metal, 0.0f, lights), without_glare());
     const Composite composite = compositor.render(linear_view_from_above(), linear_grey_plate());
     std::vector<double> row;
     for (int x = 10; x < 150; x += 4) row.push_back(pixel_at(composite, x, 60).x);
@@ -219,7 +219,7 @@ TEST_F(LightGl, TurningTheLightTurnsShadowsAndHighlights) {
   const LightSample light = light_from({0.8, 0.1, 1}, 2), turned_light = light_from(quarter * light.direction, 2);
   FrameView turned_view = linear_view_from_above();
   turned_view.tag_from_light = quarter;
-  Compositor a(lit_scene(ball, plastic, 0.3f, {light}), without_glare()),
+  GlCompositor a(lit_scene(ball, plastic, 0.3f, {light}), without_glare()),
       b(lit_scene(ball, plastic, 0.3f, {turned_light}), without_glare());
   a.render(linear_view_from_above(), linear_grey_plate());  // lit from elsewhere first
   const Composite by_view = a.render(turned_view, linear_grey_plate()),
@@ -230,7 +230,7 @@ TEST_F(LightGl, TurningTheLightTurnsShadowsAndHighlights) {
 
 TEST_F(LightGl, LightFromBelowThrowsNoShadowOnTheTable) {
   const RenderScene scene = lit_scene(square({-0.02, -0.02}, {0.02, 0.02}, 0.05), matte(0), 0.5f, {light_from({0.5, 0, -1}, 5)});
-  Compositor compositor(scene, without_glare());
+  GlCompositor compositor(scene, without_glare());
   const Composite composite = compositor.render(linear_view_from_above(), linear_grey_plate());
   for (const double x : {-0.1, -0.025, 0.06}) EXPECT_NEAR(ratio_at(composite, {x, 0.05}), 1, 1e-5);
 }
@@ -238,14 +238,14 @@ TEST_F(LightGl, LightFromBelowThrowsNoShadowOnTheTable) {
 TEST_F(LightGl, ASunOnTheHorizonIsFinite) {
   for (const double height : {0.2, 0.02, 1e-3, 0.0, -1e-3}) {
     const RenderScene scene = lit_scene(sphere(0.03, {0, 0, 0.03}), matte(0.8f), 0.5f, {light_from({-1, 0.1, height}, 20)});
-    Compositor compositor(scene, without_glare());
+    GlCompositor compositor(scene, without_glare());
     const Composite composite = compositor.render(linear_view_from_above(), linear_grey_plate());
     EXPECT_TRUE(std::ranges::all_of(composite.rgba, [](float value) { return std::isfinite(value) && value >= 0; })) << height;
   }
 }
 
 TEST_F(LightGl, TheLightIsWorkedOutOnlyWhenItTurns) {
-  Compositor compositor(lit_scene(sphere(0.03, {0, 0, 0.03}), matte(0.8f), 0.5f, {light_from({-1, 0.1, 1}, 2)}), without_glare());
+  GlCompositor compositor(lit_scene(sphere(0.03, {0, 0, 0.03}), matte(0.8f), 0.5f, {light_from({-1, 0.1, 1}, 2)}), without_glare());
   const auto works_on_light = [&](const FrameView& view) {
     compositor.render(view, linear_grey_plate());
     return std::ranges::any_of(compositor.pass_times(), [](const PassTime& pass) { return std::string(pass.name) == "light"; });
@@ -261,7 +261,7 @@ TEST_F(LightGl, TheLightIsWorkedOutOnlyWhenItTurns) {
 
 TEST_F(LightGl, MoreLightsThanThereIsRoomForAreRefused) {
   const std::vector<LightSample> lights(kMaxLightSamples + 1, light_from({0, 0, 1}, 1));
-  EXPECT_THROW(Compositor(lit_scene(square({-0.1, -0.1}, {0.1, 0.1}, 0.05), matte(1), 1, lights), {}), Error);
+  EXPECT_THROW(GlCompositor(lit_scene(square({-0.1, -0.1}, {0.1, 0.1}, 0.05), matte(1), 1, lights), {}), Error);
 }
 
 }  // namespace

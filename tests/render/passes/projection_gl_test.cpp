@@ -8,7 +8,7 @@
 #include "catchlight/composite.hpp"
 #include "catchlight/plate.hpp"
 #include "catchlight/response.hpp"
-#include "render/compositor.hpp"
+#include "render/gl_compositor.hpp"
 #include "render/frame_view.hpp"
 #include "render/render_scene.hpp"
 #include "render/settings.hpp"
@@ -105,7 +105,7 @@ TEST_F(ProjectionGl, PixelCentresAreOpenCvs) {
   std::mt19937 random(3);
   const PlateReader black = plate_f32([](int, int) { return glm::vec3(0); });
   const glm::dvec2 center(0.02, -0.01);
-  Compositor compositor(white_disc(center, 0.02), settings);
+  GlCompositor compositor(white_disc(center, 0.02), settings);
   for (const auto& distortion : {std::array<double, 8>{}, std::array<double, 8>{-0.3, 0.1, 0.002, -0.001, 0, 0, 0, 0}}) {
     glm::dvec2 bias(0);
     constexpr int kViews = 40;
@@ -128,8 +128,8 @@ TEST_F(ProjectionGl, PictureRightIsTagRightAndPictureUpIsTagUp) {
   const PlateReader black = plate_f32([](int, int) { return glm::vec3(0); });
   FrameView view = view_from_above();
   view.color.transfer = TransferFunction::linear;
-  const glm::dvec2 right = centroid(Compositor(white_disc({0.05, 0}, 0.02), {}).render(view, black));
-  const glm::dvec2 up = centroid(Compositor(white_disc({0, 0.05}, 0.02), {}).render(view, black));
+  const glm::dvec2 right = centroid(GlCompositor(white_disc({0.05, 0}, 0.02), {}).render(view, black));
+  const glm::dvec2 up = centroid(GlCompositor(white_disc({0, 0.05}, 0.02), {}).render(view, black));
   EXPECT_NEAR(right.x, 79.5 + 20, 0.05);
   EXPECT_NEAR(right.y, 59.5, 0.05);
   EXPECT_NEAR(up.x, 79.5, 0.05);
@@ -150,7 +150,7 @@ TEST_F(ProjectionGl, TheNearerSurfaceHidesTheFarther) {
   const RenderScene scene = constant_scene(mesh, red, glm::vec3(1));
   FrameView view = view_from_above();
   view.color.transfer = TransferFunction::linear;
-  const Composite composite = Compositor(scene, {}).render(view, plate_u8(0));
+  const Composite composite = GlCompositor(scene, {}).render(view, plate_u8(0));
   EXPECT_NEAR(pixel_at(composite, 80, 60).x, 1, 1e-4);
   EXPECT_NEAR(pixel_at(composite, 80, 60).y, 0, 1e-4);
   EXPECT_NEAR(pixel_at(composite, 95, 60).y, 1, 1e-4);

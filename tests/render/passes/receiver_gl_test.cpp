@@ -5,7 +5,7 @@
 #include "catchlight/pixel_rect.hpp"
 #include "catchlight/plate.hpp"
 #include "catchlight/response.hpp"
-#include "render/compositor.hpp"
+#include "render/gl_compositor.hpp"
 #include "render/frame_view.hpp"
 #include "render/render_scene.hpp"
 #include "tests/support/gl_fixture.hpp"
@@ -31,7 +31,7 @@ glm::dvec2 under_pixel(int x, int y) {
 TEST_F(ReceiverGl, PlateIsMultipliedByTheRatioWhereItLies) {
   // A linear ramp passes through the B-spline unchanged; x and y differ, so that no mirroring goes unnoticed.
   const auto ramp = [](double x, double y) { return 0.6 + 3 * x + 1.5 * y; };
-  Compositor compositor(receiver_scene(ramp), {});
+  GlCompositor compositor(receiver_scene(ramp), {});
   const Composite composite = compositor.render(linear_view_from_above(), linear_grey_plate());
   for (int y = 30; y < 90; y += 7) {
     for (int x = 50; x < 110; x += 7) {
@@ -43,7 +43,7 @@ TEST_F(ReceiverGl, PlateIsMultipliedByTheRatioWhereItLies) {
 
 TEST_F(ReceiverGl, TheGridsEndIsNotSeen) {
   // Even where the transfer claims half the light at the very rim, the picture goes over to the plate in small steps.
-  Compositor compositor(receiver_scene([](double, double) { return 0.5; }), {});
+  GlCompositor compositor(receiver_scene([](double, double) { return 0.5; }), {});
   const Composite composite = compositor.render(linear_view_from_above(), linear_grey_plate());
   float last = 0.5f, largest_step = 0;
   for (int x = composite.rect.x; x <= 80; ++x) {
@@ -60,14 +60,14 @@ TEST_F(ReceiverGl, AClippedPlateIsAsBrightAsTheReceiverMustBe) {
   FrameView view = linear_view_from_above();
   view.receiver_light = glm::vec3(2, 2, 0.5f);
   for (const double left : {0.4, 0.6}) {
-    Compositor compositor(receiver_scene([left](double, double) { return left; }), without_glare());
+    GlCompositor compositor(receiver_scene([left](double, double) { return left; }), without_glare());
     const glm::vec4 clipped = pixel_at(compositor.render(view, plate_u8(255)), 80, 60);
     EXPECT_NEAR(clipped.x, std::min(2 * left, 1.0), 1e-3) << left;
     EXPECT_NEAR(clipped.z, left, 1e-3) << "never darker than it shows";
     EXPECT_NEAR(pixel_at(compositor.render(view, plate_u8(200)), 80, 60).x, left * 200 / 255, 1e-3) << "not clipped: as it shows";
   }
   view.receiver_light = glm::vec3(0);
-  Compositor compositor(receiver_scene([](double, double) { return 0.4; }), without_glare());
+  GlCompositor compositor(receiver_scene([](double, double) { return 0.4; }), without_glare());
   EXPECT_NEAR(pixel_at(compositor.render(view, plate_u8(255)), 80, 60).x, 0.4, 1e-3) << "not known";
 }
 
@@ -84,7 +84,7 @@ TEST_F(ReceiverGl, LightAboveReferenceWhiteIsNotClippedWhereCodesGoOn) {
   // brighter white paper would be there: a tenth of it in shadow is a tenth less, and no bright rim.
   FrameView view = linear_view_from_above();
   view.receiver_light = glm::vec3(3);
-  Compositor compositor(receiver_scene([](double, double) { return 0.9; }), without_glare());
+  GlCompositor compositor(receiver_scene([](double, double) { return 0.9; }), without_glare());
   const std::vector<CameraResponse> responses{
       {TransferFunction::pq, {}}, {TransferFunction::hlg, {}}, {TransferFunction::srgb, logarithmic_curve()}};
   for (std::size_t i = 0; i < responses.size(); ++i) {
@@ -100,7 +100,7 @@ TEST_F(ReceiverGl, LightAboveReferenceWhiteIsNotClippedWhereCodesGoOn) {
 TEST_F(ReceiverGl, ClippedIsACodeWhateverItsLight) {
   // As far above the clipping level as rounding to eight bits leaves it, and as far below.
   FrameView view = linear_view_from_above();
-  Compositor compositor(receiver_scene([](double, double) { return 0.5; }), without_glare());
+  GlCompositor compositor(receiver_scene([](double, double) { return 0.5; }), without_glare());
   for (const TransferFunction transfer : {TransferFunction::srgb, TransferFunction::linear, TransferFunction::hlg}) {
     view.color.transfer = transfer;
     for (const int code : {251, 252}) {
@@ -119,7 +119,7 @@ TEST_F(ReceiverGl, ClippedIsACodeWhateverItsLight) {
 
 TEST_F(ReceiverGl, RatiosThatMakeNoSenseAreBounded) {
   for (const auto& [given, shown] : {std::pair{-0.5, 0.0}, {100.0, 2.0}}) {
-    Compositor compositor(receiver_scene([value = given](double, double) { return value; }), without_glare());
+    GlCompositor compositor(receiver_scene([value = given](double, double) { return value; }), without_glare());
     EXPECT_NEAR(pixel_at(compositor.render(linear_view_from_above(), linear_grey_plate()), 80, 60).x, shown, 1e-5) << given;
   }
 }
@@ -127,7 +127,7 @@ TEST_F(ReceiverGl, RatiosThatMakeNoSenseAreBounded) {
 TEST_F(ReceiverGl, WithoutLightThereIsNoShadow) {
   RenderScene scene = receiver_scene([](double, double) { return 0.3; });
   scene.light = constant_light({1, 0, 1}, 3);
-  Compositor compositor(scene, {});
+  GlCompositor compositor(scene, {});
   const glm::vec4 pixel = pixel_at(compositor.render(linear_view_from_above(), linear_grey_plate()), 80, 60);
   EXPECT_NEAR(pixel.x, 0.15, 1e-5);
   EXPECT_NEAR(pixel.y, 0.5, 1e-5) << "no green light: green cannot be shadowed";
@@ -140,7 +140,7 @@ TEST_F(ReceiverGl, TheObjectHidesTheShadow) {
   scene.transfer = unshadowed_transfer(scene.mesh, 3);
   add_receiver(scene.transfer, {.min_m = {-0.1f, -0.1f}, .max_m = {0.1f, 0.1f}, .columns = 21, .rows = 21},
                [](double, double) { return 0.0; });
-  EXPECT_NEAR(pixel_at(Compositor(scene, {}).render(linear_view_from_above(), linear_grey_plate()), 80, 60).x, 0.7, 1e-3);
+  EXPECT_NEAR(pixel_at(GlCompositor(scene, {}).render(linear_view_from_above(), linear_grey_plate()), 80, 60).x, 0.7, 1e-3);
 }
 
 /// A glossy ball over a shadow, in a light that makes it glare.
@@ -156,7 +156,7 @@ RenderScene full_scene() {
 }
 
 TEST_F(ReceiverGl, LayersRecombineToThePicture) {
-  Compositor compositor(full_scene(), {});
+  GlCompositor compositor(full_scene(), {});
   FrameView view = linear_view_from_above();
   view.black = glm::vec3(0.02f);
   const PlateReader plate =
@@ -177,7 +177,7 @@ TEST_F(ReceiverGl, LayersRecombineToThePicture) {
 }
 
 TEST_F(ReceiverGl, LayersHoldGeometry) {
-  Compositor compositor(full_scene(), {});
+  GlCompositor compositor(full_scene(), {});
   const Layers layers = *compositor.render(linear_view_from_above(), linear_grey_plate(), true).layers;
   // Straight above the ball: its top is 0.5 - 0.09 m away and faces the camera (-z in the camera frame).
   EXPECT_NEAR(*layers.depth.pixel(80, 60), 0.41, 1e-3);
@@ -191,7 +191,7 @@ TEST_F(ReceiverGl, LayersHoldGeometry) {
 }
 
 TEST_F(ReceiverGl, LayersWithNothingInSightAreThePlate) {
-  Compositor compositor(full_scene(), {});
+  GlCompositor compositor(full_scene(), {});
   FrameView view = linear_view_from_above();
   view.camera_from_tag.translation_m.z = -1;
   const Composite composite = compositor.render(view, linear_grey_plate(), true);
@@ -203,7 +203,7 @@ TEST_F(ReceiverGl, LayersWithNothingInSightAreThePlate) {
 }
 
 TEST_F(ReceiverGl, LayersChangeNoPixelOfThePicture) {
-  Compositor compositor(full_scene(), {});
+  GlCompositor compositor(full_scene(), {});
   const Composite with = compositor.render(linear_view_from_above(), linear_grey_plate(), true),
                   without = compositor.render(linear_view_from_above(), linear_grey_plate());
   for (int y = without.rect.y; y < without.rect.y + without.rect.height; ++y) {

@@ -3,7 +3,7 @@
 
 #include "catchlight/composite.hpp"
 #include "catchlight/response.hpp"
-#include "render/compositor.hpp"
+#include "render/gl_compositor.hpp"
 #include "render/frame_view.hpp"
 #include "render/render_scene.hpp"
 #include "tests/support/gl_fixture.hpp"
@@ -34,7 +34,7 @@ RenderScene half_shadow(double ratio) {
 }
 
 TEST_F(ResponseGl, HalfTheLightHasTheCurvesOwnCode) {
-  Compositor compositor(half_shadow(0.5), {});
+  GlCompositor compositor(half_shadow(0.5), {});
   for (const int codes : {256, 65536}) {
     FrameView view = view_from_above();
     view.color.curve = curve_of(codes);
@@ -51,7 +51,7 @@ TEST_F(ResponseGl, HalfTheLightHasTheCurvesOwnCode) {
 }
 
 TEST_F(ResponseGl, All256CodesSurviveDecodeAndEncode) {
-  Compositor compositor(half_shadow(1.0 - 2e-6), {});
+  GlCompositor compositor(half_shadow(1.0 - 2e-6), {});
   FrameView view = view_from_above();
   view.color.curve = curve_of(256);
   const Composite composite = compositor.render(view, plate_u8([](int x, int y) { return glm::ivec3((16 * y + x) % 256); }));
@@ -62,7 +62,7 @@ TEST_F(ResponseGl, All256CodesSurviveDecodeAndEncode) {
 }
 
 TEST_F(ResponseGl, TheCurveCanChangeFromFrameToFrame) {
-  Compositor compositor(half_shadow(0.5), {});
+  GlCompositor compositor(half_shadow(0.5), {});
   const auto code_with = [&](const std::shared_ptr<const ResponseCurve>& curve) {
     FrameView view = view_from_above();
     view.color.curve = curve;

@@ -5,7 +5,7 @@
 
 #include "catchlight/composite.hpp"
 #include "catchlight/pixel_rect.hpp"
-#include "render/compositor.hpp"
+#include "render/gl_compositor.hpp"
 #include "render/frame_view.hpp"
 #include "render/render_scene.hpp"
 #include "tests/support/gl_fixture.hpp"
@@ -45,7 +45,7 @@ class SensorNoiseGl : public GlTest {
 constexpr double kPixels = 160 * 120;
 
 TEST_F(SensorNoiseGl, HasTheVarianceAskedForAndNoMean) {
-  Compositor compositor(grey_wall(), without_glare());
+  GlCompositor compositor(grey_wall(), without_glare());
   const FrameView view = noisy_view();
   const Composite composite = compositor.render(view, linear_grey_plate());
   ASSERT_EQ(composite.rect, (PixelRect{0, 0, 160, 120}));
@@ -61,7 +61,7 @@ TEST_F(SensorNoiseGl, HasTheVarianceAskedForAndNoMean) {
 }
 
 TEST_F(SensorNoiseGl, PixelsChannelsAndFramesAreIndependent) {
-  Compositor compositor(grey_wall(), without_glare());
+  GlCompositor compositor(grey_wall(), without_glare());
   const Composite one = compositor.render(noisy_view(7), linear_grey_plate()),
                   next = compositor.render(noisy_view(8), linear_grey_plate());
   const auto correlation = [](const std::vector<double>& a, const std::vector<double>& b, std::size_t lag) {
@@ -75,13 +75,13 @@ TEST_F(SensorNoiseGl, PixelsChannelsAndFramesAreIndependent) {
 }
 
 TEST_F(SensorNoiseGl, AFrameIsTheSameEveryTimeAndInAnyRectangle) {
-  Compositor compositor(grey_wall(), without_glare());
+  GlCompositor compositor(grey_wall(), without_glare());
   EXPECT_EQ(compositor.render(noisy_view(3), linear_grey_plate()).rgba,
             compositor.render(noisy_view(3), linear_grey_plate()).rgba);
 }
 
 TEST_F(SensorNoiseGl, ColourIsSharedByABlockAndLumaIsNot) {
-  Compositor compositor(grey_wall(), without_glare());
+  GlCompositor compositor(grey_wall(), without_glare());
   FrameView view = noisy_view();
   view.effects.noise.slope = glm::vec3(4e-4f), view.effects.noise.floor = glm::vec3(0);
   view.effects.noise.block_shift = {1, 1};
@@ -100,7 +100,7 @@ TEST_F(SensorNoiseGl, WhatIsNotTouchedIsNotNoisier) {
   RenderScene scene = grey_wall();
   scene.mesh = square({-0.02, -0.02}, {0.02, 0.02}, 0);
   scene.transfer = unshadowed_transfer(scene.mesh, 3);
-  Compositor compositor(scene, without_glare());
+  GlCompositor compositor(scene, without_glare());
   FrameView view = noisy_view();
   view.effects.defocus_px2 = 1e-9;
   const Composite composite = compositor.render(view, linear_grey_plate());
@@ -119,7 +119,7 @@ TEST_F(SensorNoiseGl, AShadowKeepsThePlatesOwnNoiseAndGetsTheRest) {
   RenderScene scene = constant_scene(square({-1e-4, -1e-4}, {1e-4, 1e-4}, -10.0), black, glm::vec3(1));
   add_receiver(scene.transfer, {.min_m = {-0.4f, -0.4f}, .max_m = {0.4f, 0.4f}, .columns = 41, .rows = 41},
                [](double x, double y) { return std::max(std::abs(x), std::abs(y)) < 0.3 ? 0.4 : 1.0; });
-  Compositor compositor(scene, without_glare());
+  GlCompositor compositor(scene, without_glare());
   const FrameView view = noisy_view();
   const Composite composite = compositor.render(view, linear_grey_plate());
   const std::vector<double> noise = channel(composite, 1, 0.2);
@@ -128,7 +128,7 @@ TEST_F(SensorNoiseGl, AShadowKeepsThePlatesOwnNoiseAndGetsTheRest) {
 }
 
 TEST_F(SensorNoiseGl, ExtremesStayFinite) {
-  Compositor compositor(grey_wall(), {});
+  GlCompositor compositor(grey_wall(), {});
   for (const float exposure : {0.0f, 1e-6f, 1e6f}) {
     FrameView view = noisy_view();
     view.exposure = glm::vec3(exposure);
@@ -138,7 +138,7 @@ TEST_F(SensorNoiseGl, ExtremesStayFinite) {
 }
 
 TEST_F(SensorNoiseGl, VignettingIsRelativeToTheTag) {
-  Compositor compositor(grey_wall(), without_glare());
+  GlCompositor compositor(grey_wall(), without_glare());
   FrameView view = linear_view_from_above();
   view.camera.vignetting = {-0.3, 0.05, -0.1};
   const Composite composite = compositor.render(view, linear_grey_plate());

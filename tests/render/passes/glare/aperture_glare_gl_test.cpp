@@ -6,7 +6,7 @@
 #include "catchlight/image.hpp"
 #include "catchlight/plate.hpp"
 #include "catchlight/response.hpp"
-#include "render/compositor.hpp"
+#include "render/gl_compositor.hpp"
 #include "render/frame_view.hpp"
 #include "render/glare/fft_glare.hpp"
 #include "render/render_scene.hpp"
@@ -44,13 +44,13 @@ FrameView black_view() {
 const PlateReader kBlackPlate = plate_f32([](int, int) { return glm::vec3(0); });
 
 TEST_F(ApertureGlareGl, NothingGlaresThatTheSensorCanHold) {
-  EXPECT_FALSE(Compositor(lamp(0.999f), with_blades()).render(black_view(), kBlackPlate).glare_drawn);
-  EXPECT_TRUE(Compositor(lamp(100), with_blades()).render(black_view(), kBlackPlate).glare_drawn);
+  EXPECT_FALSE(GlCompositor(lamp(0.999f), with_blades()).render(black_view(), kBlackPlate).glare_drawn);
+  EXPECT_TRUE(GlCompositor(lamp(100), with_blades()).render(black_view(), kBlackPlate).glare_drawn);
 }
 
 TEST_F(ApertureGlareGl, IsWhatTheObjectsLayerGivesOnTheCpu) {
   const FrameView view = black_view();
-  const Composite composite = Compositor(lamp(1000), with_blades()).render(view, kBlackPlate, true);
+  const Composite composite = GlCompositor(lamp(1000), with_blades()).render(view, kBlackPlate, true);
   const GlareSettings settings = with_blades().glare;
   const int width = view.camera.width_px, height = view.camera.height_px;
   const Image excess = excess_of(composite.layers->object, {0, 0, width, height}, width, height, settings).value();
@@ -65,8 +65,8 @@ TEST_F(ApertureGlareGl, IsWhatTheObjectsLayerGivesOnTheCpu) {
 
 TEST_F(ApertureGlareGl, ChangesOnlyTheFramesPixelsThatItReaches) {
   const FrameView view = black_view();
-  const Composite all = Compositor(lamp(1000), with_blades()).render(view, kBlackPlate, true);
-  const Composite part = Compositor(lamp(1000), with_blades()).render(view, kBlackPlate);
+  const Composite all = GlCompositor(lamp(1000), with_blades()).render(view, kBlackPlate, true);
+  const Composite part = GlCompositor(lamp(1000), with_blades()).render(view, kBlackPlate);
   EXPECT_EQ(part.rect, unite(part.rect, part.glare_rect));
   for (int y = 0; y < view.camera.height_px; ++y)
     for (int x = 0; x < view.camera.width_px; ++x) {
@@ -82,9 +82,9 @@ TEST_F(ApertureGlareGl, ChangesOnlyTheFramesPixelsThatItReaches) {
 TEST_F(ApertureGlareGl, RefusesAnApertureThatIsNotThereOnlyWhereItGlares) {
   CompositorSettings settings = with_blades();
   settings.glare.aperture = "no such file.png";
-  EXPECT_THROW(Compositor(lamp(1), settings), Error);
+  EXPECT_THROW(GlCompositor(lamp(1), settings), Error);
   settings.glare.enabled = false;
-  EXPECT_NO_THROW(Compositor(lamp(1), settings));
+  EXPECT_NO_THROW(GlCompositor(lamp(1), settings));
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include "catchlight/composite.hpp"
 #include "catchlight/image.hpp"
 #include "catchlight/plate.hpp"
-#include "render/compositor.hpp"
+#include "render/gl_compositor.hpp"
 #include "render/frame_view.hpp"
 #include "render/gl/read_back.hpp"
 #include "render/passes/glare/classic_glare.hpp"
@@ -223,12 +223,12 @@ TEST_F(ClassicLookGl, TheCompositeAddsBothInLinearLight) {
         bilinear(128, (x + 0.5) / 512, (y + 0.5) / 512, [&](int i, int j) { return streaks_by_loop(scene.bright, i, j); });
     return 0.8 + 0.2 * bloom_by_loop(scene.bright, x, y) + 0.2 * streaks;
   };
-  const Composite composite = Compositor(nothing, settings).render(view, plate);
+  const Composite composite = GlCompositor(nothing, settings).render(view, plate);
   for (const glm::ivec2& at : {glm::ivec2{210, 311}, {190, 311}, {100, 100}, {202, 305}})
     EXPECT_NEAR(pixel_at(composite, at.x, at.y).r, expected(at.x, at.y), 1e-4) << at.x << ", " << at.y;
 
   settings.tone = {.enabled = true, .key = 0.72, .has_white_point = false};
-  const Composite exposed = Compositor(nothing, settings).render(view, plate);
+  const Composite exposed = GlCompositor(nothing, settings).render(view, plate);
   const double light = 0.72 / 0.8 * expected(210, 311);  // few highlights: the log-average is the picture's 0.8
   EXPECT_NEAR(pixel_at(exposed, 210, 311).r, light / (1 + light), 1e-3);
 }

@@ -3,7 +3,7 @@
 #include "catchlight/image.hpp"
 #include "catchlight/plate.hpp"
 #include "catchlight/response.hpp"
-#include "render/compositor.hpp"
+#include "render/gl_compositor.hpp"
 #include "render/frame_view.hpp"
 #include "render/passes/glare/glare_pass.hpp"
 #include "render/render_scene.hpp"
@@ -52,7 +52,7 @@ FrameView wide_view(double scale = 1) {
 const PlateReader kBlackPlate = plate_f32([](int, int) { return glm::vec3(0); });
 
 Image glare_layer(const RenderScene& scene, const CompositorSettings& settings, const FrameView& view) {
-  Composite composite = Compositor(scene, settings).render(view, kBlackPlate, true);
+  Composite composite = GlCompositor(scene, settings).render(view, kBlackPlate, true);
   return std::move(composite.layers->glare);
 }
 
@@ -65,11 +65,11 @@ double energy(const Image& image, int channel = 0) {
 TEST_F(GlareGl, NothingGlaresThatTheSensorCanHold) {
   FrameView view = wide_view();
   view.exposure = glm::vec3(1);
-  EXPECT_FALSE(Compositor(lamp(0.05, 0.999f), {}).render(view, kBlackPlate).glare_drawn);
-  EXPECT_TRUE(Compositor(lamp(0.05, 1.5f), {}).render(view, kBlackPlate).glare_drawn);
+  EXPECT_FALSE(GlCompositor(lamp(0.05, 0.999f), {}).render(view, kBlackPlate).glare_drawn);
+  EXPECT_TRUE(GlCompositor(lamp(0.05, 1.5f), {}).render(view, kBlackPlate).glare_drawn);
   view.exposure = glm::vec3(0.1f);
-  EXPECT_FALSE(Compositor(lamp(0.05, 1.5f), {}).render(view, kBlackPlate).glare_drawn) << "exposure decides, not radiance";
-  EXPECT_FALSE(Compositor(lamp(0.05, 100.0f), without_glare()).render(wide_view(), kBlackPlate).glare_drawn);
+  EXPECT_FALSE(GlCompositor(lamp(0.05, 1.5f), {}).render(view, kBlackPlate).glare_drawn) << "exposure decides, not radiance";
+  EXPECT_FALSE(GlCompositor(lamp(0.05, 100.0f), without_glare()).render(wide_view(), kBlackPlate).glare_drawn);
 }
 
 TEST_F(GlareGl, GlareReachesBeyondTheObjectAndKeepsItsColour) {
@@ -96,7 +96,7 @@ TEST_F(GlareGl, EnergyStaysWhileAHighlightMovesWithinAPixel) {
   for (int i = 0; i < 10; ++i) {
     const glm::dvec2 shift(i * 1e-4, i * 0.7e-4);
     const RenderScene scene = lamp(0.003, 100, shift);
-    const Composite composite = Compositor(scene, only(0.1, 0.1, 4, 45)).render(wide_view(), kBlackPlate, true);
+    const Composite composite = GlCompositor(scene, only(0.1, 0.1, 4, 45)).render(wide_view(), kBlackPlate, true);
     double drawn = 0;
     for (std::size_t p = 0; p < composite.layers->object.data.size(); p += 4) drawn += composite.layers->object.data[p];
     const double ratio = energy(composite.layers->glare) / drawn;

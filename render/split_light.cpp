@@ -1,4 +1,4 @@
-#include "render/passes/split_light.hpp"
+#include "render/split_light.hpp"
 
 namespace catchlight::render {
 

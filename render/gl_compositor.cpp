@@ -1,4 +1,4 @@
-#include "render/compositor.hpp"
+#include "render/gl_compositor.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,10 +22,10 @@
 #include "render/passes/object_pass.hpp"
 #include "render/passes/receiver_pass.hpp"
 #include "render/passes/shadowed_lights.hpp"
-#include "render/passes/split_light.hpp"
 #include "render/passes/tone_pass.hpp"
 #include "render/probe/light_samples.hpp"
 #include "render/scene_check.hpp"
+#include "render/split_light.hpp"
 
 namespace catchlight::render {
 namespace {
@@ -41,7 +41,7 @@ int supported_samples(int wanted) {
 
 }  // namespace
 
-struct Compositor::Impl {
+struct GlCompositor::Impl {
   Impl(const RenderScene& scene, const CompositorSettings& wanted);
 
   Composite render(const FrameView& view, const PlateReader& plate, bool want_layers, bool want_picture);
@@ -91,7 +91,7 @@ struct Compositor::Impl {
   std::vector<PassTime> times;
 };
 
-Compositor::Impl::Impl(const RenderScene& scene, const CompositorSettings& wanted)
+GlCompositor::Impl::Impl(const RenderScene& scene, const CompositorSettings& wanted)
     : settings(wanted),
       light_probe(split_light(checked(scene))),
       probe_in_tag_m(scene.probe_in_tag_m),
@@ -114,7 +114,7 @@ Compositor::Impl::Impl(const RenderScene& scene, const CompositorSettings& wante
   check_gl("the compositor's start");
 }
 
-SceneNeeds Compositor::Impl::needs() const {
+SceneNeeds GlCompositor::Impl::needs() const {
   SceneNeeds result;
   result.object = bounds;
   if (receiver) result.shadow_reach = receiver->reach();
@@ -125,7 +125,7 @@ SceneNeeds Compositor::Impl::needs() const {
 }
 
 /// The light turns against the object only where the probe is fixed to the camera.
-void Compositor::Impl::relight(const glm::dmat3& tag_from_light) {
+void GlCompositor::Impl::relight(const glm::dmat3& tag_from_light) {
   const SplitLight light_tag = tag_from_light == glm::dmat3(1.0) ? light_probe : turned(light_probe, tag_from_light);
   light.set_light(light_tag.whole, light_tag.split_off);
   lights.update(light_tag.samples, [this] { object.draw_geometry(); });
@@ -134,7 +134,7 @@ void Compositor::Impl::relight(const glm::dmat3& tag_from_light) {
   lit_from = tag_from_light;
 }
 
-void Compositor::Impl::update_view(const FrameView& view, const FramePlan& plan) {
+void GlCompositor::Impl::update_view(const FrameView& view, const FramePlan& plan) {
   const auto& [k1, k2, p1, p2, k3, k4, k5, k6] = view.camera.distortion;
   glm::dmat4 camera_from_tag(view.camera_from_tag.rotation);
   camera_from_tag[3] = glm::dvec4(view.camera_from_tag.translation_m, 1.0);
@@ -157,7 +157,7 @@ void Compositor::Impl::update_view(const FrameView& view, const FramePlan& plan)
   view_uniforms.bind(BINDING_VIEW);
 }
 
-void Compositor::Impl::make_targets(const FramePlan& plan) {
+void GlCompositor::Impl::make_targets(const FramePlan& plan) {
   const int width = roomy(plan.virtual_rect.width), height = roomy(plan.virtual_rect.height);
   if (!object_target || !object_target->fits(width, height, plan.makes_layers)) {
     object_target = std::make_unique<ObjectTarget>(width, height, settings.samples, plan.makes_layers, divides_glare());
@@ -167,39 +167,39 @@ void Compositor::Impl::make_targets(const FramePlan& plan) {
 }
 
 /// What the object emits glares otherwise than what it reflects.
-bool Compositor::Impl::divides_glare() const {
+bool GlCompositor::Impl::divides_glare() const {
   const GlareSettings& g = settings.glare;
   return g.enabled && object.emits() &&
          (g.emitter_strength != 1 || (g.emitter_directions != 0 && g.emitter_directions != g.streak_directions));
 }
 
-void Compositor::Impl::draw_object(const FramePlan& plan) {
+void GlCompositor::Impl::draw_object(const FramePlan& plan) {
   if (receiver) receiver->bind();
   lights.bind();
   glBindTextureUnit(TEXTURE_PLATE_LIGHT, composite.plate_light().id());
   object.draw(*object_target, plan.virtual_rect, plan.frame.width, plan.frame.height);
 }
 
-void Compositor::Impl::draw_receiver(const FramePlan& plan) {
+void GlCompositor::Impl::draw_receiver(const FramePlan& plan) {
   const float no_shadow[4] = {1, 1, 1, 1};
   reset_state();
   glClearNamedFramebufferfv(shadow_target->framebuffer(), GL_COLOR, 0, no_shadow);
   if (plan.draws_receiver) receiver->draw(*shadow_target, plan.virtual_rect, plan.frame.width, plan.frame.height);
 }
 
-bool Compositor::Impl::find_highlights(const FramePlan& plan) {
+bool GlCompositor::Impl::find_highlights(const FramePlan& plan) {
   const PixelRect& rect = plan.virtual_rect;
   if (aperture_glare) return aperture_glare->extract(*object_seen, rect, plan.frame.width, plan.frame.height);
   const GlTexture* emission = divides_glare() ? &object_target->emission() : nullptr;
   return glare.extract(*object_seen, emission, rect, plan.frame.width, plan.frame.height);
 }
 
-PixelRect Compositor::Impl::spread_glare(const CameraModel& camera) {
+PixelRect GlCompositor::Impl::spread_glare(const CameraModel& camera) {
   return aperture_glare ? aperture_glare->spread(camera) : glare.spread();
 }
 
 /// Draws object and shadow, blurs them as the camera does, and looks for highlights that glare.
-void Compositor::Impl::draw_virtual_layer(const FramePlan& plan, Composite& result) {
+void GlCompositor::Impl::draw_virtual_layer(const FramePlan& plan, Composite& result) {
   make_targets(plan);
   pass("object", [&] { draw_object(plan); });
   pass("receiver", [&] { draw_receiver(plan); });
@@ -211,13 +211,13 @@ void Compositor::Impl::draw_virtual_layer(const FramePlan& plan, Composite& resu
   if (plan.seeks_glare) pass("highlights", [&] { result.glare_drawn = find_highlights(plan); });
 }
 
-void Compositor::Impl::upload_plate(const PlateReader& plate, const PixelRect& rect) {
+void GlCompositor::Impl::upload_plate(const PlateReader& plate, const PixelRect& rect) {
   const Plate result = plate(rect);
   if (result.rect != rect) throw Error("the plate reader gave another rectangle than it was asked for");
   composite.upload(result);
 }
 
-void Compositor::Impl::draw_composite(const FrameView& view, const FramePlan& plan, const Composite& result) {
+void GlCompositor::Impl::draw_composite(const FrameView& view, const FramePlan& plan, const Composite& result) {
   VirtualLayer layer{plan.virtual_rect, object_seen, shadow_seen, nullptr};
   layer.passed_at_tag = plan.passed_at_tag;
   if (result.glare_drawn) layer.glare = &glare;
@@ -225,24 +225,24 @@ void Compositor::Impl::draw_composite(const FrameView& view, const FramePlan& pl
   composite.draw(view, result.rect, layer, plan.makes_layers, plan.is_toned);
 }
 
-void Compositor::Impl::meter_frame(const FrameView& view, const FramePlan& plan, Composite& result) {
+void GlCompositor::Impl::meter_frame(const FrameView& view, const FramePlan& plan, Composite& result) {
   result.tone_wanted = tone->meter(composite.drawn(), plan.frame.width, plan.frame.height, view.color);
 }
 
 /// The whole frame, drawn as linear light, becomes codes.
-void Compositor::Impl::apply_tone(const FrameView& view, const FramePlan& plan, Composite& result) {
+void GlCompositor::Impl::apply_tone(const FrameView& view, const FramePlan& plan, Composite& result) {
   const int width = plan.frame.width, height = plan.frame.height;
   tone->draw_glare(composite.drawn(), width, height);
   tone->draw(composite.drawn(), width, height, view.color, view.tone.value_or(result.tone_wanted));
   result.rgba = tone->read();
 }
 
-void Compositor::Impl::read_layers(const FramePlan& plan, Layers& layers) {
+void GlCompositor::Impl::read_layers(const FramePlan& plan, Layers& layers) {
   composite.read_layers(layers);
   read_object_layers(object_target.get(), plan.virtual_rect, plan.frame, layers);
 }
 
-Composite Compositor::Impl::render(const FrameView& view, const PlateReader& plate, bool want_layers, bool want_picture) {
+Composite GlCompositor::Impl::render(const FrameView& view, const PlateReader& plate, bool want_layers, bool want_picture) {
   check_view(view);
   clock.begin_frame();
   times.clear();
@@ -272,25 +272,25 @@ Composite Compositor::Impl::render(const FrameView& view, const PlateReader& pla
   return result;
 }
 
-Compositor::Compositor(const RenderScene& scene, const CompositorSettings& settings)
+GlCompositor::GlCompositor(const RenderScene& scene, const CompositorSettings& settings)
     : impl_(std::make_unique<Impl>(scene, settings)) {}
-Compositor::~Compositor() = default;
-Compositor::Compositor(Compositor&&) noexcept = default;
-Compositor& Compositor::operator=(Compositor&&) noexcept = default;
+GlCompositor::~GlCompositor() = default;
+GlCompositor::GlCompositor(GlCompositor&&) noexcept = default;
+GlCompositor& GlCompositor::operator=(GlCompositor&&) noexcept = default;
 
-Composite Compositor::render(const FrameView& view, const PlateReader& plate, bool want_layers) {
+Composite GlCompositor::render(const FrameView& view, const PlateReader& plate, bool want_layers) {
   return impl_->render(view, plate, want_layers, true);
 }
 
-ToneCurve Compositor::meter(const FrameView& view, const PlateReader& plate) {
+ToneCurve GlCompositor::meter(const FrameView& view, const PlateReader& plate) {
   return impl_->render(view, plate, false, false).tone_wanted;
 }
 
-const std::vector<PassTime>& Compositor::pass_times() const {
+const std::vector<PassTime>& GlCompositor::pass_times() const {
   return impl_->times;
 }
 
-std::vector<std::string> Compositor::reload_shaders() {
+std::vector<std::string> GlCompositor::reload_shaders() {
   impl_->lit_from.reset();  // what is drawn once and kept is drawn with the new programs too
   return impl_->shaders.reload();
 }
