@@ -2,6 +2,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 
@@ -28,6 +29,21 @@ void fill(RTCRay& ray, const glm::vec3& origin_m, const glm::vec3& direction) {
   ray.tfar = std::numeric_limits<float>::infinity();
   ray.mask = 0xffffffffu;
   ray.flags = 0;
+}
+
+RTCIntersectContext context_for(Coherence coherence) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = coherence == Coherence::coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  return context;
+}
+
+RTCRayNp ray_pointers(RayStream& rays) {
+  RTCRayNp pointers{};  // Embree takes the members that are left out as 0, and all bits of the mask as set
+  pointers.org_x = rays.origin_x_m.data(), pointers.org_y = rays.origin_y_m.data(), pointers.org_z = rays.origin_z_m.data();
+  pointers.dir_x = rays.direction_x.data(), pointers.dir_y = rays.direction_y.data(), pointers.dir_z = rays.direction_z.data();
+  pointers.tnear = rays.near.data(), pointers.tfar = rays.far.data();
+  return pointers;
 }
 
 void attach_triangles(RTCDevice device, RTCScene scene, const Mesh& mesh) {
@@ -84,6 +100,24 @@ std::optional<RayHit> RayScene::closest_hit(const glm::vec3& origin_m, const glm
   const auto corner = [&](int k) { return mesh_.vertices[mesh_.indices[3 * ray.hit.primID + k]].position_m; };
   const glm::vec3 outward = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
   return RayHit{ray.hit.primID, ray.hit.u, ray.hit.v, glm::dot(outward, direction) < 0};
+}
+
+void RayScene::closest_hits(RayStream& rays, Coherence coherence) const {
+  std::ranges::fill(rays.triangle, RayStream::kNothing);
+  std::ranges::fill(rays.geometry, RTC_INVALID_GEOMETRY_ID);
+  RTCIntersectContext context = context_for(coherence);
+  RTCRayHitNp stream{ray_pointers(rays), {}};
+  stream.hit.Ng_x = rays.normal_x.data(), stream.hit.Ng_y = rays.normal_y.data(), stream.hit.Ng_z = rays.normal_z.data();
+  stream.hit.u = rays.u.data(), stream.hit.v = rays.v.data();
+  stream.hit.primID = rays.triangle.data();
+  stream.hit.geomID = rays.geometry.data();
+  rtcIntersectNp(handles_->scene, &context, &stream, static_cast<unsigned>(rays.size()));
+}
+
+void RayScene::find_occluded(RayStream& rays, Coherence coherence) const {
+  RTCIntersectContext context = context_for(coherence);
+  const RTCRayNp stream = ray_pointers(rays);
+  rtcOccludedNp(handles_->scene, &context, &stream, static_cast<unsigned>(rays.size()));
 }
 
 }  // namespace catchlight::render

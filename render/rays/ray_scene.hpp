@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "render/mesh/mesh.hpp"
+#include "render/rays/ray_stream.hpp"
 
 namespace catchlight::render {
 
@@ -14,6 +15,10 @@ struct RayHit {
   float u = 0, v = 0;        ///< barycentric weights of corners 1 and 2
   bool front_facing = true;  ///< seen from the side where the corners wind counter-clockwise
 };
+
+/// Whether rays that stand side by side in a stream start near each other and go much the same way. Embree then takes them
+/// through its hierarchy as one, three times as fast; where it is not so, that is slower. The answers are the same.
+enum class Coherence { coherent, incoherent };
 
 class RayScene {
  public:
@@ -24,6 +29,11 @@ class RayScene {
   /// Whether the ray meets anything at all, on either side of its faces.
   bool occluded(const glm::vec3& origin_m, const glm::vec3& direction) const;
   std::optional<RayHit> closest_hit(const glm::vec3& origin_m, const glm::vec3& direction) const;
+
+  /// Finds what each ray meets first between `near` and `far`.
+  void closest_hits(RayStream& rays, Coherence coherence) const;
+  /// Sets `far` of each ray that meets anything between `near` and `far` to minus infinity, and changes nothing else.
+  void find_occluded(RayStream& rays, Coherence coherence) const;
 
  private:
   struct Handles;
