@@ -71,6 +71,18 @@ std::optional<Image> excess_of(const Image& object, const PixelRect& rect, int f
   return excess;
 }
 
+PixelRect lit_pixels(const Image& picture) {
+  int left = picture.width, right = -1, top = picture.height, bottom = -1;
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      const float* rgb = picture.pixel(x, y);
+      if (rgb[0] == 0 && rgb[1] == 0 && rgb[2] == 0) continue;
+      left = std::min(left, x), right = std::max(right, x);
+      top = std::min(top, y), bottom = y;
+    }
+  return right < left ? PixelRect{} : PixelRect{left, top, right - left + 1, bottom - top + 1};
+}
+
 FftGlare::FftGlare(const GlareSettings& settings) : settings_(settings) {
   if (settings.aperture != "none") picture_ = aperture_picture(settings.aperture);
 }

@@ -20,6 +20,9 @@ namespace catchlight::render {
 std::optional<Image> excess_of(const Image& object, const PixelRect& rect, int frame_width, int frame_height,
                                const GlareSettings& settings);
 
+/// The rectangle around all pixels of an RGB picture that are not 0.
+PixelRect lit_pixels(const Image& picture);
+
 class FftGlare {
  public:
   /// Throws Error where settings.aperture cannot be used.

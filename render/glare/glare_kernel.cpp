@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "render/glare/spline_samples.hpp"
 #include "shaders/interface.h"
 
 namespace catchlight::render {
@@ -30,19 +31,6 @@ std::vector<std::array<double, kBloomGaussians>> bloom_axis(double frame_height_
       axis[static_cast<std::size_t>(i)][g] = gaussian(i - size / 2, gaussians[g].sigma_heights * frame_height_px);
   }
   return axis;
-}
-
-/// Weights of four texels from `first`.
-struct SplineSamples {
-  int first;
-  std::array<float, 4> weights;
-};
-
-SplineSamples spline_at(double texel) {
-  const double first = std::floor(texel - 0.5), f = texel - 0.5 - first, g = 1 - f;
-  const auto weight = [](double w) { return static_cast<float>(w / 6); };
-  return {static_cast<int>(first) - 1,
-          {weight(g * g * g), weight(4 - 6 * f * f + 3 * f * f * f), weight(4 - 6 * g * g + 3 * g * g * g), weight(f * f * f)}};
 }
 
 }  // namespace

@@ -46,6 +46,12 @@ GlareGrid make_glare_grid(int frame_width, int frame_height, int wanted_rows) {
   return {texel_px, texels(frame_width), texels(frame_height)};
 }
 
+GlareGrid GlareGrid::halved(int times) const {
+  const int step = 1 << times;
+  const auto texels = [&](int all) { return (all - 2 * GLARE_MARGIN + step - 1) / step + 2 * GLARE_MARGIN; };
+  return {texel_px * step, texels(columns), texels(rows)};
+}
+
 PixelRect GlareGrid::texels(const PixelRect& pixels, int more) const {
   const auto low = [&](int px) { return static_cast<int>(std::floor(px / texel_px)) + GLARE_MARGIN - more; };
   const auto high = [&](int px) { return static_cast<int>(std::ceil(px / texel_px)) + GLARE_MARGIN + more; };
@@ -58,6 +64,14 @@ PixelRect GlareGrid::pixels(const PixelRect& texels) const {
             y = static_cast<int>(std::floor((texels.y - GLARE_MARGIN) * texel_px));
   return {x, y, static_cast<int>(std::ceil((texels.x + texels.width - GLARE_MARGIN) * texel_px)) - x,
           static_cast<int>(std::ceil((texels.y + texels.height - GLARE_MARGIN) * texel_px)) - y};
+}
+
+PixelRect texels_at(const PixelRect& texels, const GlareGrid& grid, int level, int around) {
+  const double step = std::exp2(level);
+  const auto low = [&](int t) { return static_cast<int>(std::floor((t - GLARE_MARGIN) / step)) + GLARE_MARGIN - around; };
+  const auto high = [&](int t) { return static_cast<int>(std::ceil((t - GLARE_MARGIN) / step)) + GLARE_MARGIN + around; };
+  const int x = low(texels.x), y = low(texels.y);
+  return intersect({x, y, high(texels.x + texels.width) - x, high(texels.y + texels.height) - y}, grid.halved(level).all());
 }
 
 std::array<BloomGaussian, kBloomGaussians> bloom_gaussians() {
@@ -175,6 +189,31 @@ StreakGrid streak_grid(const GlareSettings& settings, double rows_per_height) {
 int streak_pass_count(const GlareSettings& settings, double reach_texels) {
   if (settings.streak_passes > 0) return std::min(settings.streak_passes, kMaxStreakPasses);
   return std::clamp(static_cast<int>(std::ceil(std::log2(std::max(reach_texels, 1.0)) / 2)), 1, kMaxStreakPasses);
+}
+
+Star plan_star(const GlareSettings& settings, int directions, double rows_per_height, double reach_texels) {
+  const glm::dvec3 log_per_texel = streak_log_per_height(settings) / rows_per_height;
+  const int passes = streak_pass_count(settings, reach_texels);
+  Star star{{}, glm::dvec3(0)};
+  for (const glm::dvec2& direction : streak_directions(directions, settings.streak_rotation_deg)) {
+    // Neither their number nor the passes nor the resolution changes the brightness.
+    const glm::dvec3 gain = settings.streak_strength / directions / streak_sum(direction, log_per_texel, passes);
+    star.arms.push_back(streak_passes(direction, log_per_texel, passes, gain));
+    star.at_source -= 0.5 * gain;
+  }
+  return star;
+}
+
+GlareSpread plan_spread(const GlareSettings& settings, const GlareGrid& grid, int frame_height, const PixelRect& light,
+                        double excess, bool divided) {
+  const double rows_per_height = grid.rows_per_height(frame_height);
+  const GlareReach reach = glare_reach(settings, rows_per_height, excess);
+  const int grow = static_cast<int>(std::ceil(std::max(reach.bloom_texels, reach.streak_texels)));
+  const PixelRect texels{light.x - grow, light.y - grow, light.width + 2 * grow, light.height + 2 * grow};
+  StreakGrid streaks = streak_grid(settings, rows_per_height);
+  // The two parts of the excess are not in the pyramid.
+  if (divided) streaks = {0, std::pow(settings.streak_width * rows_per_height, 2)};
+  return {intersect(texels, grid.all()), reach.streak_texels, streaks};
 }
 
 }  // namespace catchlight::render

@@ -19,6 +19,9 @@ struct GlareGrid {
   int columns, rows;  ///< with the margins
 
   double rows_per_height(int frame_height) const { return frame_height / texel_px; }
+  PixelRect all() const { return {0, 0, columns, rows}; }
+  /// The grid of half of the resolution, so many times; its margins are as many texels.
+  GlareGrid halved(int times) const;
   /// Texels that touch these pixels of the frame, grown by `more` texels.
   PixelRect texels(const PixelRect& pixels, int more) const;
   /// Pixels of the frame under these texels.
@@ -26,6 +29,15 @@ struct GlareGrid {
 };
 
 GlareGrid make_glare_grid(int frame_width, int frame_height, int wanted_rows);
+
+/// How many texels beyond a pixel the first filter carries its light, and beyond a texel the gate looks.
+inline constexpr int kFilterReach = 2, kGateReach = 2;
+/// Texels around a bright pixel that its gate can open for, and those that the gate looks at there.
+inline constexpr int kExcessReach = kFilterReach + kGateReach, kLightReach = kExcessReach + kGateReach;
+
+/// Texels of the grid halved `level` times that touch these of the grid, and as many around them as the way up reads, or else
+/// `around`.
+PixelRect texels_at(const PixelRect& texels, const GlareGrid& grid, int level, int around = 3);
 
 /// Bloom is a sum of round Gaussians, each twice as wide as the one before: a narrow core with a long tail.
 struct BloomGaussian {
@@ -89,5 +101,25 @@ StreakGrid streak_grid(const GlareSettings& settings, double rows_per_height);
 
 /// Passes whose 4^passes steps reach so far, unless set by hand.
 int streak_pass_count(const GlareSettings& settings, double reach_texels);
+
+/// Streaks in several directions: the passes of each, all equally many, and what the source itself gets besides, which is half
+/// of the first samples taken off.
+struct Star {
+  std::vector<std::vector<StreakSamples>> arms;
+  glm::dvec3 at_source;
+};
+/// A star of settings.streak_strength, on a grid of so many rows a height, that reaches so far on it.
+Star plan_star(const GlareSettings& settings, int directions, double rows_per_height, double reach_texels);
+
+/// How far the glare of a frame goes, and where its streaks are drawn.
+struct GlareSpread {
+  PixelRect texels;  ///< of the grid
+  double streak_reach_texels;
+  StreakGrid streaks;
+};
+/// The spread of an excess that lies within the texels `light` and sums up to `excess`. `divided`: streaks differ by where the
+/// light comes from, and are drawn on the grid itself.
+GlareSpread plan_spread(const GlareSettings& settings, const GlareGrid& grid, int frame_height, const PixelRect& light,
+                        double excess, bool divided);
 
 }  // namespace catchlight::render

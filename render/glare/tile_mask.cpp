@@ -2,7 +2,13 @@
 
 #include <algorithm>
 
+#include "shaders/interface.h"
+
 namespace catchlight::render {
+
+int tiles_in(int texels) {
+  return (texels + GLARE_TILE - 1) / GLARE_TILE;
+}
 
 TileMask TileMask::grown(int across, int down) const {
   // What is marked at least once within the window, one axis after the other: counts that move along.
@@ -44,6 +50,18 @@ std::vector<PixelRect> TileMask::rectangles() const {
     open = std::move(here);
   }
   all.insert(all.end(), open.begin(), open.end());
+  return all;
+}
+
+std::vector<PixelRect> TileMask::texels_around(int across, int down) const {
+  std::vector<PixelRect> all = grown(tiles_in(across), tiles_in(down)).rectangles();
+  for (PixelRect& r : all) r = {GLARE_TILE * r.x, GLARE_TILE * r.y, GLARE_TILE * r.width, GLARE_TILE * r.height};
+  return all;
+}
+
+PixelRect around(const std::vector<PixelRect>& rectangles) {
+  PixelRect all;
+  for (const PixelRect& each : rectangles) all = unite(all, each);
   return all;
 }
 

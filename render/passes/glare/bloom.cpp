@@ -19,27 +19,15 @@ BloomPass::BloomPass(ShaderLibrary& shaders)
       up_(shaders.program(fullscreen("glare_up.frag", {"OWN"}))),
       up_to_grid_(shaders.program(fullscreen("glare_up.frag"))) {}
 
-void BloomPass::resize(int columns, int rows, double rows_per_height) {
+void BloomPass::resize(const GlareGrid& grid, double rows_per_height) {
+  grid_ = grid;
   blurs_ = plan_bloom(rows_per_height);
   levels_.clear();
-  int width = columns - 2 * GLARE_MARGIN, height = rows - 2 * GLARE_MARGIN;
-  for (int level = 1; level <= std::max(blurs_.back().level, 1); ++level) {
-    width = (width + 1) / 2, height = (height + 1) / 2;
-    const auto target = [&](const char* label) {
-      return make_glare_target(label, width + 2 * GLARE_MARGIN, height + 2 * GLARE_MARGIN);
-    };
+  for (int number = 1; number <= std::max(blurs_.back().level, 1); ++number) {
+    const GlareGrid size = grid.halved(number);
+    const auto target = [&](const char* label) { return make_glare_target(label, size.columns, size.rows); };
     levels_.push_back({target("shrunk excess"), target("bloom rows"), target("bloom")});
   }
-}
-
-PixelRect BloomPass::texels_at(const PixelRect& texels, int level, int around) const {
-  const ColorTarget<1>& target = levels_[static_cast<std::size_t>(level) - 1].shrunk;
-  const double step = std::exp2(level);
-  const auto low = [&](int t) { return static_cast<int>(std::floor((t - GLARE_MARGIN) / step)) + GLARE_MARGIN - around; };
-  const auto high = [&](int t) { return static_cast<int>(std::ceil((t - GLARE_MARGIN) / step)) + GLARE_MARGIN + around; };
-  const int x = low(texels.x), y = low(texels.y);
-  return intersect({x, y, high(texels.x + texels.width) - x, high(texels.y + texels.height) - y},
-                   {0, 0, target.width(), target.height()});
 }
 
 void BloomPass::shrink(const GlTexture& excess, const PixelRect& texels) {
@@ -47,7 +35,7 @@ void BloomPass::shrink(const GlTexture& excess, const PixelRect& texels) {
   for (std::size_t k = 0; k < levels_.size(); ++k) {
     clear(levels_[k].shrunk);
     glBindTextureUnit(TEXTURE_SOURCE, source->id());
-    draw_.over(texels_at(texels, static_cast<int>(k) + 1), levels_[k].shrunk.framebuffer(), down_);
+    draw_.over(texels_at(texels, grid_, static_cast<int>(k) + 1), levels_[k].shrunk.framebuffer(), down_);
     source = &levels_[k].shrunk.texture();
   }
 }
@@ -64,7 +52,7 @@ double BloomPass::total() const {
 
 void BloomPass::glow(int number, double strength, const PixelRect& texels, GlareBlur& blur) {
   const Level& to = level(number);
-  const PixelRect reached = texels_at(texels, number);
+  const PixelRect reached = texels_at(texels, grid_, number);
   double own_gain = 0;
   for (const BloomBlur& step : blurs_) {
     if (step.level == number && step.taps.size() == 1) own_gain += strength * step.weight;

@@ -13,8 +13,8 @@ class BloomPass {
  public:
   explicit BloomPass(ShaderLibrary& shaders);
 
-  /// Makes what a grid of that many texels needs, margins included.
-  void resize(int columns, int rows, double rows_per_height);
+  /// Makes what a grid needs.
+  void resize(const GlareGrid& grid, double rows_per_height);
 
   /// Halves the excess again and again; needed before the two below.
   void shrink(const GlTexture& excess, const PixelRect& texels);
@@ -28,8 +28,6 @@ class BloomPass {
   };
   int coarsest() const { return static_cast<int>(levels_.size()); }
   const Level& level(int number) const { return levels_[static_cast<std::size_t>(number) - 1]; }
-  /// Texels of a level that touch these of the grid, and as many around them as the way up reads, or else `around`.
-  PixelRect texels_at(const PixelRect& texels, int level, int around = 3) const;
 
   /// The Gaussians to be drawn; those that need the grid itself are not drawn by this class.
   const std::vector<BloomBlur>& blurs() const { return blurs_; }
@@ -44,6 +42,7 @@ class BloomPass {
  private:
   Program &down_, &up_, &up_to_grid_;
   FullscreenDraw draw_;
+  GlareGrid grid_{};
   std::vector<BloomBlur> blurs_;
   std::vector<Level> levels_;  ///< the first has half of the grid's resolution
 };

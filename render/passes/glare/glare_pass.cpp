@@ -7,21 +7,6 @@
 #include "shaders/interface.h"
 
 namespace catchlight::render {
-namespace {
-
-/// How many texels beyond a pixel the first filter carries its light, and beyond a texel the gate looks.
-constexpr int kFilterReach = 2, kGateReach = 2;
-/// Texels around a bright pixel that its gate can open for, and those that the gate looks at there.
-constexpr int kExcessReach = kFilterReach + kGateReach, kLightReach = kExcessReach + kGateReach;
-
-PixelRect around(const std::vector<PixelRect>& rectangles) {
-  PixelRect all;
-  for (const PixelRect& each : rectangles) all = unite(all, each);
-  return all;
-}
-
-}  // namespace
-
 GlarePass::GlarePass(const GlareSettings& settings, ShaderLibrary& shaders)
     : settings_(settings),
       shaders_(shaders),
@@ -45,7 +30,7 @@ void GlarePass::make_targets(int frame_width, int frame_height) {
   emitted_.reset();
   scratch_ = target("glare rows");
   glow_ = target("glare");
-  bloom_.resize(grid_.columns, grid_.rows, grid_.rows_per_height(frame_height));
+  bloom_.resize(grid_, grid_.rows_per_height(frame_height));
   narrow_.reset();
 }
 
@@ -112,24 +97,18 @@ bool GlarePass::extract(const GlTexture& object, const GlTexture* emission, cons
 }
 
 PixelRect GlarePass::spread() {
-  const PixelRect all = all_texels(), light = intersect(around(tiles_.grown(kExcessReach, kExcessReach)), all);
+  const PixelRect light = intersect(around(tiles_.grown(kExcessReach, kExcessReach)), grid_.all());
   bloom_.shrink(excess_->texture(), light);
-  const double rows_per_height = grid_.rows_per_height(frame_height_);
-  const GlareReach reach = glare_reach(settings_, rows_per_height, bloom_.total());
-  const int grow = static_cast<int>(std::ceil(std::max(reach.bloom_texels, reach.streak_texels)));
-  const PixelRect texels = intersect({light.x - grow, light.y - grow, light.width + 2 * grow, light.height + 2 * grow}, all);
-  StreakGrid on = streak_grid(settings_, rows_per_height);
-  // The two parts of the excess are not in the pyramid.
-  if (divided_) on = {0, std::pow(settings_.streak_width * rows_per_height, 2)};
+  const GlareSpread plan = plan_spread(settings_, grid_, frame_height_, light, bloom_.total(), divided_);
   for (int level = bloom_.coarsest(); level > 0; --level) {
-    bloom_.glow(level, settings_.bloom_strength, texels, blur_);
-    if (level == on.level) add_streaks(on, reach.streak_texels, texels);
+    bloom_.glow(level, settings_.bloom_strength, plan.texels, blur_);
+    if (level == plan.streaks.level) add_streaks(plan);
   }
-  if (texels != all) clear(*glow_);
-  bloom_.gather(*glow_, texels);
+  if (plan.texels != grid_.all()) clear(*glow_);
+  bloom_.gather(*glow_, plan.texels);
   add_narrow_bloom();
-  if (on.level == 0) add_streaks(on, reach.streak_texels, texels);
-  return intersect(grid_.pixels(texels), {0, 0, frame_width_, frame_height_});
+  if (plan.streaks.level == 0) add_streaks(plan);
+  return intersect(grid_.pixels(plan.texels), {0, 0, frame_width_, frame_height_});
 }
 
 /// Adds the part of the bloom that the grid itself is needed for, around the light alone.
@@ -144,22 +123,21 @@ void GlarePass::add_narrow_bloom() {
   }
 }
 
-void GlarePass::add_streaks(const StreakGrid& on, double reach_texels, const PixelRect& texels) {
+void GlarePass::add_streaks(const GlareSpread& plan) {
   if (settings_.streak_strength <= 0) return;
-  const GlTexture& source = divided_        ? reflected_->texture()
-                            : on.level == 0 ? excess_->texture()
-                                            : bloom_.level(on.level).shrunk.texture();
-  add_star(source, settings_.streak_directions, on, reach_texels, texels);
-  if (divided_) add_star(emitted_->texture(), settings_.emitter_directions, on, reach_texels, texels);
+  const GlTexture& source = divided_                  ? reflected_->texture()
+                            : plan.streaks.level == 0 ? excess_->texture()
+                                                      : bloom_.level(plan.streaks.level).shrunk.texture();
+  add_star(source, settings_.streak_directions, plan);
+  if (divided_) add_star(emitted_->texture(), settings_.emitter_directions, plan);
 }
 
-void GlarePass::add_star(const GlTexture& source, int directions, const StreakGrid& on, double reach_texels,
-                         const PixelRect& texels) {
-  const double rows_per_height = grid_.rows_per_height(frame_height_) / std::exp2(on.level);
+void GlarePass::add_star(const GlTexture& source, int directions, const GlareSpread& plan) {
+  const StreakGrid& on = plan.streaks;
   const ColorTarget<1>& target = on.level == 0 ? *glow_ : bloom_.level(on.level).glow;
   // Going down carries light less than two texels further.
   const auto at_level = [&](const PixelRect& r, int more) {
-    return on.level == 0 ? intersect(r, all_texels()) : bloom_.texels_at(r, on.level, more);
+    return on.level == 0 ? intersect(r, grid_.all()) : texels_at(r, grid_, on.level, more);
   };
   const std::vector<double> taps = gaussian_taps(on.own_blur);
   const int reach = kExcessReach + (static_cast<int>(taps.size()) - 1) * (1 << on.level);
@@ -173,19 +151,12 @@ void GlarePass::add_star(const GlTexture& source, int directions, const StreakGr
     blur_.add(source, scratch, *narrow_, taps, 1, light);
     narrow = &narrow_->texture();
   }
-  const glm::dvec3 log_per_texel = streak_log_per_height(settings_) / rows_per_height;
-  const int passes = streak_pass_count(settings_, reach_texels / std::exp2(on.level));
-  std::vector<std::vector<StreakSamples>> arms;
-  StreakSamples half_of_first{1, {0, 0}, glm::dvec3(0), glm::dvec3(0)};
-  for (const glm::dvec2& direction : streak_directions(directions, settings_.streak_rotation_deg)) {
-    // Neither their number nor the passes nor the resolution changes the brightness.
-    const glm::dvec3 gain = settings_.streak_strength / directions / streak_sum(direction, log_per_texel, passes);
-    arms.push_back(streak_passes(direction, log_per_texel, passes, gain));
-    half_of_first.gain -= 0.5 * gain;
-  }
-  streaks_.add(*narrow, light, arms, target, at_level(texels, 3));
-  const std::vector<std::vector<StreakSamples>> half{{half_of_first}};
-  streaks_.add(*narrow, light, half, target, light);
+  const double texel = std::exp2(on.level);
+  const Star star =
+      plan_star(settings_, directions, grid_.rows_per_height(frame_height_) / texel, plan.streak_reach_texels / texel);
+  streaks_.add(*narrow, light, star.arms, target, at_level(plan.texels, 3));
+  const std::vector<std::vector<StreakSamples>> source_alone{{{1, {0, 0}, star.at_source, glm::dvec3(0)}}};
+  streaks_.add(*narrow, light, source_alone, target, light);
 }
 
 Image GlarePass::read_excess() const {

@@ -45,10 +45,9 @@ class GlarePass {
   /// A filter along one axis, ready to be drawn: pixel `first_pixel` of the frame is the first of `source_size` along it.
   const Program& axis_filter(std::vector<std::string> defines, int first_pixel, int source_size);
   void attach_parts();
-  PixelRect all_texels() const { return {0, 0, grid_.columns, grid_.rows}; }
   void add_narrow_bloom();
-  void add_streaks(const StreakGrid& on, double reach_texels, const PixelRect& texels);
-  void add_star(const GlTexture& source, int directions, const StreakGrid& on, double reach_texels, const PixelRect& texels);
+  void add_streaks(const GlareSpread& plan);
+  void add_star(const GlTexture& source, int directions, const GlareSpread& plan);
 
   GlareSettings settings_;
   ShaderLibrary& shaders_;

@@ -6,14 +6,6 @@
 #include "shaders/interface.h"
 
 namespace catchlight::render {
-namespace {
-
-int tiles_in(int texels) {
-  return (texels + GLARE_TILE - 1) / GLARE_TILE;
-}
-
-}  // namespace
-
 bool GlareTiles::find(const GlTexture& object, const PixelRect& rect, const GlareGrid& grid, float threshold) {
   const int columns = tiles_in(grid.columns), rows = tiles_in(grid.rows);
   if (!found_ || found_->width() != columns || found_->height() != rows)
@@ -37,12 +29,6 @@ bool GlareTiles::find(const GlTexture& object, const PixelRect& rect, const Glar
   glReadPixels(0, 0, columns, rows, GL_RED, GL_UNSIGNED_BYTE, bright_.marked.data());
   for (std::uint8_t& mark : bright_.marked) mark = mark != 0 ? 1 : 0;
   return std::find(bright_.marked.begin(), bright_.marked.end(), 1) != bright_.marked.end();
-}
-
-std::vector<PixelRect> GlareTiles::grown(int across, int down) const {
-  std::vector<PixelRect> rectangles = bright_.grown(tiles_in(across), tiles_in(down)).rectangles();
-  for (PixelRect& r : rectangles) r = {GLARE_TILE * r.x, GLARE_TILE * r.y, GLARE_TILE * r.width, GLARE_TILE * r.height};
-  return rectangles;
 }
 
 }  // namespace catchlight::render

@@ -24,7 +24,7 @@ class GlareTiles {
 
   /// Disjoint rectangles of texels that hold these tiles and at least so many texels around them; may lie beyond the grid's
   /// edges.
-  std::vector<PixelRect> grown(int across, int down) const;
+  std::vector<PixelRect> grown(int across, int down) const { return bright_.texels_around(across, down); }
 
  private:
   ShaderLibrary& shaders_;
