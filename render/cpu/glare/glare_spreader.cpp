@@ -1,0 +1,216 @@
+#include "render/cpu/glare/glare_spreader.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace catchlight::render {
+namespace {
+
+/// Black texels on both sides of a line, so that what lies around its lit ones can be read.
+constexpr int kPad = 4;
+/// The filter that halves the resolution.
+constexpr std::array kDown{0.125f, 0.375f, 0.375f, 0.125f};
+/// A quarter of a texel before the third of four: read bilinearly, and as a cubic B-spline.
+constexpr std::array kBilinear{0.0f, 0.25f, 0.75f, 0.0f};
+constexpr std::array kCubic{1.0f / 384, 121.0f / 384, 235.0f / 384, 27.0f / 384};
+
+Texel uniform(double weight) {
+  const auto w = static_cast<float>(weight);
+  return Texel{w, w, w, w};
+}
+
+Texel texel_of(const glm::dvec3& rgb) {
+  return Texel{static_cast<float>(rgb.r), static_cast<float>(rgb.g), static_cast<float>(rgb.b), 0};
+}
+
+Span columns_of(const PixelRect& rect) {
+  return {rect.x, rect.x + rect.width};
+}
+
+/// The sum over all texels, in the channel that has most.
+double total(const GlarePicture& picture) {
+  glm::dvec3 sum(0);
+  for (int y = 0; y < picture.rows(); ++y) {
+    const Span lit = picture.lit(y);
+    for (int x = lit.begin; x < lit.end; ++x)
+      for (int c = 0; c < 3; ++c) sum[c] += picture.row(y)[x][c];
+  }
+  return std::max({sum.r, sum.g, sum.b});
+}
+
+/// Weights of the four texels from one after `first` to two before it, for what lies `f` of a texel before `first`: Catmull and
+/// Rom's cubic.
+std::array<double, 4> between_texels(double f) {
+  return {f * (-0.5 + f * (1.0 - 0.5 * f)), 1.0 + f * f * (-2.5 + 1.5 * f), f * (0.5 + f * (2.0 - 1.5 * f)),
+          f * f * (-0.5 + 0.5 * f)};
+}
+
+/// One of the samples that are added up: a texel of the source that lies so far to the left and above, and its weight.
+struct Sample {
+  int right, down;
+  Texel weight;
+};
+
+/// Adds a pass of a streak (shaders/glare_streak.frag).
+void add_pass(const GlarePicture& from, const StreakSamples& pass, GlarePicture& to, const PixelRect& reached) {
+  std::vector<Sample> samples;
+  glm::dvec3 weight = pass.gain;
+  const bool along_x = std::abs(pass.pace.x) >= std::abs(pass.pace.y);
+  for (int s = 0; s < pass.count; ++s, weight *= pass.falloff) {
+    const glm::dvec2 behind = static_cast<double>(s) * pass.pace, whole = glm::floor(behind), rest = behind - whole;
+    const int right = static_cast<int>(whole.x), down = static_cast<int>(whole.y);
+    const std::array<double, 4> shares = between_texels(along_x ? rest.y : rest.x);
+    for (int k = 0; k < 4; ++k) {
+      const double share = shares[static_cast<std::size_t>(k)];
+      const int across = k - 1;
+      if (share != 0)
+        samples.push_back({along_x ? right : right + across, along_x ? down + across : down, texel_of(share * weight)});
+    }
+  }
+  for (int y = reached.y; y < reached.y + reached.height; ++y)
+    for (const Sample& each : samples) to.add(y, from, y - each.down, each.right, each.weight, columns_of(reached));
+}
+
+void fit(GlarePicture& picture, const GlarePicture& like) {
+  if (picture.columns() != like.columns() || picture.rows() != like.rows()) picture = GlarePicture(like.columns(), like.rows());
+  picture.clear();
+}
+
+}  // namespace
+
+void GlareSpreader::resize(const GlareGrid& grid, int frame_height) {
+  grid_ = grid;
+  frame_height_ = frame_height;
+  blurs_ = plan_bloom(grid.rows_per_height(frame_height));
+  levels_.clear();
+  for (int level = 0; level <= std::max(blurs_.back().level, 1); ++level) {
+    const GlareGrid size = grid.halved(level);
+    const GlarePicture picture(size.columns, size.rows);
+    levels_.push_back({level == 0 ? GlarePicture() : picture, picture, picture, GlarePicture(size.columns + 2 * kPad, 1)});
+  }
+}
+
+const GlarePicture& GlareSpreader::source(const GlareExcess& excess, int level) const {
+  return level == 0 ? excess.all() : levels_[static_cast<std::size_t>(level)].shrunk;
+}
+
+PixelRect GlareSpreader::spread(const GlareExcess& excess) {
+  for (int level = 1; level <= coarsest(); ++level) shrink(source(excess, level - 1), level);
+  const GlareSpread plan = plan_spread(settings_, grid_, frame_height_, excess.light(), total(excess.all()), excess.is_divided());
+  for (int level = coarsest(); level >= 0; --level) {
+    const PixelRect reached = level == 0 ? plan.texels : texels_at(plan.texels, grid_, level);
+    glow(excess, level, reached);
+    if (level != plan.streaks.level || settings_.streak_strength <= 0) continue;
+    add_star(excess.is_divided() ? excess.reflected() : source(excess, level), settings_.streak_directions, plan, reached);
+    if (excess.is_divided()) add_star(excess.emitted(), settings_.emitter_directions, plan, reached);
+  }
+  return plan.texels;
+}
+
+/// Sums four rows of a level's picture into its line, black around; texel x of the result is column x of the picture.
+const Texel* GlareSpreader::start_line(int level, const GlarePicture& picture, int first_row,
+                                       const std::array<float, 4>& weights) {
+  GlarePicture& line = levels_[static_cast<std::size_t>(level)].line;
+  line.clear();
+  for (int k = 0; k < 4; ++k) {
+    const float weight = weights[static_cast<std::size_t>(k)];
+    if (weight != 0) line.add(0, picture, first_row + k, kPad, uniform(weight), line.all_columns());
+  }
+  if (const Span lit = line.lit(0); !lit.empty()) line.widen(0, {lit.begin - kPad, lit.end + kPad});
+  return line.row(0) + kPad;
+}
+
+/// Halves the resolution (shaders/glare_down.frag): texel i is made of 2 i - 5 ... 2 i - 2.
+void GlareSpreader::shrink(const GlarePicture& from, int level) {
+  GlarePicture& to = levels_[static_cast<std::size_t>(level)].shrunk;
+  to.clear();
+  for (int y = 0; y < to.rows(); ++y) {
+    const Texel* line = start_line(level - 1, from, 2 * y - 5, kDown);
+    const Span lit = levels_[static_cast<std::size_t>(level) - 1].line.lit(0);
+    if (lit.empty()) continue;
+    // The line's black texels and its padding count in `lit`.
+    const Span texels = intersect({(lit.begin + 3) / 2, (lit.end - 2 * kPad + 4) / 2 + 1}, to.all_columns());
+    Texel* row = to.widen(y, texels);
+    for (int x = texels.begin; x < texels.end; ++x) {
+      const Texel* four = line + 2 * x - 5;
+      row[x] = kDown[0] * (four[0] + four[3]) + kDown[1] * (four[1] + four[2]);
+    }
+  }
+}
+
+/// Makes a level's glow: the bloom of this level and of the coarser ones.
+void GlareSpreader::glow(const GlareExcess& excess, int level, const PixelRect& reached) {
+  GlarePicture& to = levels_[static_cast<std::size_t>(level)].glow;
+  to.clear();
+  if (level < coarsest()) add_coarser(level, reached);
+  if (settings_.bloom_strength <= 0) return;
+  for (const BloomBlur& each : blurs_)
+    if (each.level == level)
+      add_blurred(source(excess, level), level, each.taps, settings_.bloom_strength * each.weight, to, reached);
+}
+
+/// Adds the coarser level's glow (shaders/glare_up.frag): texel 2 j is made of the four from j, texel 2 j + 1 of those from j + 1
+/// with the weights in reverse.
+void GlareSpreader::add_coarser(int level, const PixelRect& reached) {
+  const Level& coarser = levels_[static_cast<std::size_t>(level) + 1];
+  GlarePicture& to = levels_[static_cast<std::size_t>(level)].glow;
+  const std::array<float, 4>& weights = level == 0 ? kCubic : kBilinear;
+  const auto [a, b, c, d] = weights;
+  const std::array<float, 4> reversed{d, c, b, a};
+  for (int y = reached.y; y < reached.y + reached.height; ++y) {
+    const Texel* line = start_line(level + 1, coarser.glow, (y + 1) / 2, y % 2 == 0 ? weights : reversed);
+    const Span lit = coarser.line.lit(0);
+    if (lit.empty()) continue;
+    const Span texels = intersect({2 * lit.begin - 7, 2 * (lit.end - 2 * kPad) - 1}, columns_of(reached));
+    if (texels.empty()) continue;
+    Texel* row = to.widen(y, texels);
+    for (int x = texels.begin; x < texels.end; ++x) {
+      const Texel* four = line + (x + 1) / 2;
+      row[x] += x % 2 == 0 ? a * four[0] + b * four[1] + c * four[2] + d * four[3]
+                           : d * four[0] + c * four[1] + b * four[2] + a * four[3];
+    }
+  }
+}
+
+/// Adds `weight` times the blurred picture. `taps` are the weights at distance 0, 1, 2 ...
+void GlareSpreader::add_blurred(const GlarePicture& from, int level, const std::vector<double>& taps, double weight,
+                                GlarePicture& to, const PixelRect& reached) {
+  const int radius = static_cast<int>(taps.size()) - 1;
+  const auto tap = [&](int d) { return taps[static_cast<std::size_t>(std::abs(d))]; };
+  GlarePicture& scratch = levels_[static_cast<std::size_t>(level)].scratch;
+  if (radius > 0) scratch.clear();
+  for (int y = 0; radius > 0 && y < from.rows(); ++y)
+    for (int d = -radius; d <= radius; ++d) scratch.add(y, from, y, d, uniform(tap(d)), scratch.all_columns());
+  const GlarePicture& rows = radius > 0 ? scratch : from;
+  for (int y = reached.y; y < reached.y + reached.height; ++y)
+    for (int d = -radius; d <= radius; ++d) to.add(y, rows, y + d, 0, uniform(weight * tap(d)), columns_of(reached));
+}
+
+/// Adds streaks in several directions to the glow of the level that they are drawn on.
+void GlareSpreader::add_star(const GlarePicture& from, int directions, const GlareSpread& plan, const PixelRect& reached) {
+  const int level = plan.streaks.level;
+  GlarePicture& to = levels_[static_cast<std::size_t>(level)].glow;
+  const PixelRect all = grid_.halved(level).all();
+  const std::vector<double> taps = gaussian_taps(plan.streaks.own_blur);
+  if (taps.size() > 1) {
+    fit(narrow_, to);
+    add_blurred(from, level, taps, 1, narrow_, all);
+  }
+  const GlarePicture& narrow = taps.size() > 1 ? narrow_ : from;
+  const double texel = std::exp2(level);
+  const Star star =
+      plan_star(settings_, directions, grid_.rows_per_height(frame_height_) / texel, plan.streak_reach_texels / texel);
+  for (const std::vector<StreakSamples>& passes : star.arms) {
+    const GlarePicture* source = &narrow;
+    for (std::size_t p = 0; p + 1 < passes.size(); ++p) {
+      fit(between_[p % 2], to);
+      add_pass(*source, passes[p], between_[p % 2], all);
+      source = &between_[p % 2];
+    }
+    add_pass(*source, passes.back(), to, reached);
+  }
+  for (int y = reached.y; y < reached.y + reached.height; ++y)
+    to.add(y, narrow, y, 0, texel_of(star.at_source), columns_of(reached));
+}
+
+}  // namespace catchlight::render
