@@ -216,4 +216,8 @@ GlareSpread plan_spread(const GlareSettings& settings, const GlareGrid& grid, in
   return {intersect(texels, grid.all()), reach.streak_texels, streaks};
 }
 
+double classic_attenuation(double attenuation_at_480_rows) {
+  return std::pow(attenuation_at_480_rows, kReferenceRows / 128);
+}
+
 }  // namespace catchlight::render

@@ -122,4 +122,7 @@ struct GlareSpread {
 GlareSpread plan_spread(const GlareSettings& settings, const GlareGrid& grid, int frame_height, const PixelRect& light,
                         double excess, bool divided);
 
+/// A streak's attenuation per texel of the classic look's 128, from that per pixel at 480 rows.
+double classic_attenuation(double attenuation_at_480_rows);
+
 }  // namespace catchlight::render

@@ -1,6 +1,7 @@
 #include "render/passes/tone_pass.hpp"
 
 #include "render/gl/read_back.hpp"
+#include "render/glare/glare_plan.hpp"
 #include "shaders/interface.h"
 
 namespace catchlight::render {

@@ -1,6 +1,7 @@
 #include "render/tone/tone_curve.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -25,6 +26,30 @@ double percentile(const LuminanceHistogram& histogram, double pixels, double sha
 }
 
 }  // namespace
+
+void LuminanceHistogram::add(float luminance) {
+  constexpr std::uint32_t kRestBits = 17, kFirst = ((127u - 32u) << (23 - kRestBits)) - 1;
+  if (std::isnan(luminance)) return;
+  if (luminance < 0x1p-32f) {
+    ++bins[0].count;
+    return;
+  }
+  const auto bits = std::bit_cast<std::uint32_t>(std::min(luminance, 4294967040.0f));
+  Bin& bin = bins[(bits >> kRestBits) - kFirst];
+  const std::uint32_t rest = bits & ((1u << kRestBits) - 1);
+  ++bin.count;
+  bin.rest_low += rest;
+  bin.rest_high += bin.rest_low < rest ? 1 : 0;
+}
+
+void LuminanceHistogram::add(const LuminanceHistogram& other) {
+  for (std::size_t i = 0; i < bins.size(); ++i) {
+    const Bin& from = other.bins[i];
+    bins[i].count += from.count;
+    bins[i].rest_low += from.rest_low;
+    bins[i].rest_high += from.rest_high + (bins[i].rest_low < from.rest_low ? 1 : 0);
+  }
+}
 
 double LuminanceHistogram::mean(int bin) const {
   if (bin == 0) return 0;

@@ -21,6 +21,10 @@ struct LuminanceHistogram {
   };
   std::array<Bin, kBins> bins{};
 
+  /// Counts a pixel, as shaders/tone_meter.frag does: one with a NaN for nothing, an infinite one as 2^32.
+  void add(float luminance);
+  void add(const LuminanceHistogram& other);
+
   /// Mean luminance of the bin's pixels, which must be some.
   double mean(int bin) const;
 };

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <limits>
 
 #include "shaders/interface.h"
 
@@ -12,18 +10,6 @@ namespace {
 
 constexpr float kBrightestPixel = 1e9f;
 constexpr float kBinomial[2 * kGateReach + 1] = {0.0625f, 0.25f, 0.375f, 0.25f, 0.0625f};
-
-Texel load(const float* rgba) {
-  Texel texel;
-  std::memcpy(&texel, rgba, sizeof texel);
-  return texel;
-}
-
-/// What is neither a number nor light is black; what lies above `most` is that.
-Texel usable(Texel light, Texel most) {
-  light = light > 0 ? light : Texel{};
-  return light < most ? light : most;
-}
 
 double bspline_weight(double d) {
   const double x = std::abs(d), y = std::max(2 - x, 0.0);
@@ -41,13 +27,6 @@ float used_threshold(const GlareSettings& settings) {
 }
 
 }  // namespace
-
-bool any_above(const float* rgba, int pixels, float threshold) {
-  const Texel limits{threshold, threshold, threshold, std::numeric_limits<float>::infinity()};
-  auto found = limits > limits;
-  for (int i = 0; i < pixels; ++i) found |= load(rgba + 4 * static_cast<std::ptrdiff_t>(i)) > limits;
-  return (found[0] | found[1] | found[2]) != 0;
-}
 
 GlareExcess::AxisFilter::AxisFilter(int texels, double texel_px) : taps(static_cast<int>(std::floor(4 * texel_px)) + 1) {
   for (int texel = 0; texel < texels; ++texel) {
@@ -145,13 +124,14 @@ Span GlareExcess::sum_rows(const Pixels& pixels, int y, const Span& texels) {
     // What the object emits of it comes along in place of the coverage.
     const Texel most{kBrightestPixel, kBrightestPixel, kBrightestPixel, 0};
     if (!pixels.emission) {
-      for (int i = 0; i < count; ++i) pixel_line_[static_cast<std::size_t>(i)] += weight * usable(load(object + 4 * i), most);
+      for (int i = 0; i < count; ++i)
+        pixel_line_[static_cast<std::size_t>(i)] += weight * at_most(positive(load(object + 4 * i)), most);
       continue;
     }
     const float* emission = pixels.emission->pixel(columns.begin - rect.x, row - rect.y);
     for (int i = 0; i < count; ++i, emission += pixels.emission->channels) {
-      const Texel emitted = usable(Texel{emission[0], emission[1], emission[2], 0}, most);
-      Texel light = usable(load(object + 4 * i), most);
+      const Texel emitted = at_most(positive(Texel{emission[0], emission[1], emission[2], 0}), most);
+      Texel light = at_most(positive(load(object + 4 * i)), most);
       light[3] = emitted[0] + emitted[1] + emitted[2];
       pixel_line_[static_cast<std::size_t>(i)] += weight * light;
     }
@@ -165,10 +145,10 @@ void GlareExcess::filter_row(const Pixels& pixels, int y, const Span& texels) {
   Texel* light = light_.widen(y, texels);
   for (int x = texels.begin; x < texels.end; ++x) {
     const int first = across_.first[static_cast<std::size_t>(x)];
-    const float* weights = across_.weights_of(x) - first;
+    const float* weights = across_.weights_of(x);
     Texel sum{};
     const Span under = intersect({first, first + across_.taps}, columns);
-    for (int i = under.begin; i < under.end; ++i) sum += weights[i] * pixel_line_[static_cast<std::size_t>(i - columns.begin)];
+    for (int i = under.begin; i < under.end; ++i) sum += weights[i - first] * pixel_line_[static_cast<std::size_t>(i - columns.begin)];
     light[x] = sum;
     peaks_[at(x, y)] = std::max({sum[0], sum[1], sum[2]});
   }

@@ -13,9 +13,6 @@
 
 namespace catchlight::render {
 
-/// Whether any channel of RGB is above a threshold in any pixel of an RGBA row.
-bool any_above(const float* rgba, int pixels, float threshold);
-
 class GlareExcess {
  public:
   explicit GlareExcess(const GlareSettings& settings) : settings_(settings) {}

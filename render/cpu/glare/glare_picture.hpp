@@ -3,10 +3,9 @@
 
 #include <vector>
 
-namespace catchlight::render {
+#include "render/cpu/glare/texel.hpp"
 
-/// A texel's RGB and a number beside it, which processors add and multiply at once.
-using Texel = float __attribute__((vector_size(16)));
+namespace catchlight::render {
 
 /// Texels of a row, half-open.
 struct Span {

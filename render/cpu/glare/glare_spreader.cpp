@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/cpu/glare/glare_filters.hpp"
+
 namespace catchlight::render {
 namespace {
 
@@ -14,19 +16,6 @@ constexpr std::array kDown{0.125f, 0.375f, 0.375f, 0.125f};
 constexpr std::array kBilinear{0.0f, 0.25f, 0.75f, 0.0f};
 constexpr std::array kCubic{1.0f / 384, 121.0f / 384, 235.0f / 384, 27.0f / 384};
 
-Texel uniform(double weight) {
-  const auto w = static_cast<float>(weight);
-  return Texel{w, w, w, w};
-}
-
-Texel texel_of(const glm::dvec3& rgb) {
-  return Texel{static_cast<float>(rgb.r), static_cast<float>(rgb.g), static_cast<float>(rgb.b), 0};
-}
-
-Span columns_of(const PixelRect& rect) {
-  return {rect.x, rect.x + rect.width};
-}
-
 /// The sum over all texels, in the channel that has most.
 double total(const GlarePicture& picture) {
   glm::dvec3 sum(0);
@@ -36,44 +25,6 @@ double total(const GlarePicture& picture) {
       for (int c = 0; c < 3; ++c) sum[c] += picture.row(y)[x][c];
   }
   return std::max({sum.r, sum.g, sum.b});
-}
-
-/// Weights of the four texels from one after `first` to two before it, for what lies `f` of a texel before `first`: Catmull and
-/// Rom's cubic.
-std::array<double, 4> between_texels(double f) {
-  return {f * (-0.5 + f * (1.0 - 0.5 * f)), 1.0 + f * f * (-2.5 + 1.5 * f), f * (0.5 + f * (2.0 - 1.5 * f)),
-          f * f * (-0.5 + 0.5 * f)};
-}
-
-/// One of the samples that are added up: a texel of the source that lies so far to the left and above, and its weight.
-struct Sample {
-  int right, down;
-  Texel weight;
-};
-
-/// Adds a pass of a streak (shaders/glare_streak.frag).
-void add_pass(const GlarePicture& from, const StreakSamples& pass, GlarePicture& to, const PixelRect& reached) {
-  std::vector<Sample> samples;
-  glm::dvec3 weight = pass.gain;
-  const bool along_x = std::abs(pass.pace.x) >= std::abs(pass.pace.y);
-  for (int s = 0; s < pass.count; ++s, weight *= pass.falloff) {
-    const glm::dvec2 behind = static_cast<double>(s) * pass.pace, whole = glm::floor(behind), rest = behind - whole;
-    const int right = static_cast<int>(whole.x), down = static_cast<int>(whole.y);
-    const std::array<double, 4> shares = between_texels(along_x ? rest.y : rest.x);
-    for (int k = 0; k < 4; ++k) {
-      const double share = shares[static_cast<std::size_t>(k)];
-      const int across = k - 1;
-      if (share != 0)
-        samples.push_back({along_x ? right : right + across, along_x ? down + across : down, texel_of(share * weight)});
-    }
-  }
-  for (int y = reached.y; y < reached.y + reached.height; ++y)
-    for (const Sample& each : samples) to.add(y, from, y - each.down, each.right, each.weight, columns_of(reached));
-}
-
-void fit(GlarePicture& picture, const GlarePicture& like) {
-  if (picture.columns() != like.columns() || picture.rows() != like.rows()) picture = GlarePicture(like.columns(), like.rows());
-  picture.clear();
 }
 
 }  // namespace
@@ -146,7 +97,8 @@ void GlareSpreader::glow(const GlareExcess& excess, int level, const PixelRect& 
   if (settings_.bloom_strength <= 0) return;
   for (const BloomBlur& each : blurs_)
     if (each.level == level)
-      add_blurred(source(excess, level), level, each.taps, settings_.bloom_strength * each.weight, to, reached);
+      add_blurred(source(excess, level), each.taps, settings_.bloom_strength * each.weight,
+                  levels_[static_cast<std::size_t>(level)].scratch, to, reached);
 }
 
 /// Adds the coarser level's glow (shaders/glare_up.frag): texel 2 j is made of the four from j, texel 2 j + 1 of those from j + 1
@@ -172,20 +124,6 @@ void GlareSpreader::add_coarser(int level, const PixelRect& reached) {
   }
 }
 
-/// Adds `weight` times the blurred picture. `taps` are the weights at distance 0, 1, 2 ...
-void GlareSpreader::add_blurred(const GlarePicture& from, int level, const std::vector<double>& taps, double weight,
-                                GlarePicture& to, const PixelRect& reached) {
-  const int radius = static_cast<int>(taps.size()) - 1;
-  const auto tap = [&](int d) { return taps[static_cast<std::size_t>(std::abs(d))]; };
-  GlarePicture& scratch = levels_[static_cast<std::size_t>(level)].scratch;
-  if (radius > 0) scratch.clear();
-  for (int y = 0; radius > 0 && y < from.rows(); ++y)
-    for (int d = -radius; d <= radius; ++d) scratch.add(y, from, y, d, uniform(tap(d)), scratch.all_columns());
-  const GlarePicture& rows = radius > 0 ? scratch : from;
-  for (int y = reached.y; y < reached.y + reached.height; ++y)
-    for (int d = -radius; d <= radius; ++d) to.add(y, rows, y + d, 0, uniform(weight * tap(d)), columns_of(reached));
-}
-
 /// Adds streaks in several directions to the glow of the level that they are drawn on.
 void GlareSpreader::add_star(const GlarePicture& from, int directions, const GlareSpread& plan, const PixelRect& reached) {
   const int level = plan.streaks.level;
@@ -194,7 +132,7 @@ void GlareSpreader::add_star(const GlarePicture& from, int directions, const Gla
   const std::vector<double> taps = gaussian_taps(plan.streaks.own_blur);
   if (taps.size() > 1) {
     fit(narrow_, to);
-    add_blurred(from, level, taps, 1, narrow_, all);
+    add_blurred(from, taps, 1, levels_[static_cast<std::size_t>(level)].scratch, narrow_, all);
   }
   const GlarePicture& narrow = taps.size() > 1 ? narrow_ : from;
   const double texel = std::exp2(level);
@@ -204,10 +142,10 @@ void GlareSpreader::add_star(const GlarePicture& from, int directions, const Gla
     const GlarePicture* source = &narrow;
     for (std::size_t p = 0; p + 1 < passes.size(); ++p) {
       fit(between_[p % 2], to);
-      add_pass(*source, passes[p], between_[p % 2], all);
+      add_streak_pass(*source, passes[p], between_[p % 2], all);
       source = &between_[p % 2];
     }
-    add_pass(*source, passes.back(), to, reached);
+    add_streak_pass(*source, passes.back(), to, reached);
   }
   for (int y = reached.y; y < reached.y + reached.height; ++y)
     to.add(y, narrow, y, 0, texel_of(star.at_source), columns_of(reached));

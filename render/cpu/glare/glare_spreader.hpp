@@ -38,8 +38,6 @@ class GlareSpreader {
   void shrink(const GlarePicture& from, int level);
   void glow(const GlareExcess& excess, int level, const PixelRect& reached);
   void add_coarser(int level, const PixelRect& reached);
-  void add_blurred(const GlarePicture& from, int level, const std::vector<double>& taps, double weight, GlarePicture& to,
-                   const PixelRect& reached);
   void add_star(const GlarePicture& from, int directions, const GlareSpread& plan, const PixelRect& reached);
 
   GlareSettings settings_;

@@ -61,8 +61,7 @@ void GridGlare::read_row(int x, int y, int count, float* rgb) const {
       const Texel* four = &line[static_cast<std::size_t>(across[i].first - first)];
       const std::array<float, 4>& w = across[i].weights;
       // Catmull and Rom's cubic under the streaks may undershoot by a little.
-      Texel light = w[0] * four[0] + w[1] * four[1] + w[2] * four[2] + w[3] * four[3];
-      light = light > 0 ? light : Texel{};
+      const Texel light = positive(w[0] * four[0] + w[1] * four[1] + w[2] * four[2] + w[3] * four[3]);
       for (int c = 0; c < 3; ++c) rgb[c] = light[c];
     }
   }

@@ -27,10 +27,6 @@ ColorTarget<1> result_target(const char* label, int size) {
 
 }  // namespace
 
-double classic_attenuation(double attenuation_at_480_rows) {
-  return std::pow(attenuation_at_480_rows, 480.0 / 128);
-}
-
 ClassicLook::ClassicLook(ShaderLibrary& shaders)
     : bright_program_(shaders.program(fullscreen("classic_bright.frag"))),
       shrink_(shaders.program(fullscreen("classic_shrink.frag"))),

@@ -9,9 +9,6 @@
 
 namespace catchlight::render {
 
-/// A streak's attenuation per texel of the 128, from that per pixel at 480 rows.
-double classic_attenuation(double attenuation_at_480_rows);
-
 class ClassicLook {
  public:
   explicit ClassicLook(ShaderLibrary& shaders);
