@@ -96,9 +96,10 @@ bool GlareExcess::find_tiles(const Pixels& pixels) {
     for (int y = rows.begin; y < rows.end; ++y) {
       if (!bright_rows[static_cast<std::size_t>(y)]) continue;
       for (int u = texels.x / GLARE_TILE; u < tiles_in(texels.x + texels.width); ++u) {
+        std::uint8_t& mark = tiles_.marked[static_cast<std::size_t>(v * tiles_.columns + u)];
         const Span columns = pixels_under(u, rect.x, rect.width);
-        if (!any_above(pixels.object.pixel(columns.begin, y), columns.end - columns.begin, threshold)) continue;
-        tiles_.marked[static_cast<std::size_t>(v * tiles_.columns + u)] = 1;
+        if (mark || !any_above(pixels.object.pixel(columns.begin, y), columns.end - columns.begin, threshold)) continue;
+        mark = 1;
         any = true;
       }
     }
@@ -148,7 +149,8 @@ void GlareExcess::filter_row(const Pixels& pixels, int y, const Span& texels) {
     const float* weights = across_.weights_of(x);
     Texel sum{};
     const Span under = intersect({first, first + across_.taps}, columns);
-    for (int i = under.begin; i < under.end; ++i) sum += weights[i - first] * pixel_line_[static_cast<std::size_t>(i - columns.begin)];
+    for (int i = under.begin; i < under.end; ++i)
+      sum += weights[i - first] * pixel_line_[static_cast<std::size_t>(i - columns.begin)];
     light[x] = sum;
     peaks_[at(x, y)] = std::max({sum[0], sum[1], sum[2]});
   }

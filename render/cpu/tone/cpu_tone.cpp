@@ -53,7 +53,7 @@ ToneCurve CpuTone::meter(const Image& light, const PlateColor& color) const {
 
 void CpuTone::apply(Image& light, const PlateColor& color, const ToneCurve& curve, bool codes_end_at_1) {
   if (classic_) classic_->draw(light);
-  const glm::dvec3 weights = luminance_weights(color.plate_from_rec709);
+  const glm::vec3 weights(luminance_weights(color.plate_from_rec709));
   by_rows(light.height, [&](std::size_t, int first, int end) {
     std::vector<Texel> glare(static_cast<std::size_t>(light.width));
     for (int y = first; y < end; ++y) {
@@ -62,8 +62,8 @@ void CpuTone::apply(Image& light, const PlateColor& color, const ToneCurve& curv
       for (int x = 0; x < light.width; ++x) {
         float* rgba = light.pixel(x, y);
         const Texel added = glare[static_cast<std::size_t>(x)];
-        const glm::dvec3 scene(sane(rgba[0]) + added[0], sane(rgba[1]) + added[1], sane(rgba[2]) + added[2]);
-        const glm::dvec3 toned = curve(scene, weights, codes_end_at_1);
+        const glm::vec3 scene(sane(rgba[0]) + added[0], sane(rgba[1]) + added[1], sane(rgba[2]) + added[2]);
+        const glm::vec3 toned = curve(scene, weights, codes_end_at_1);
         for (int c = 0; c < 3; ++c) {
           const double code = code_from_linear(color, toned[c], c);
           rgba[c] = static_cast<float>(codes_end_at_1 ? std::clamp(code, 0.0, 1.0) : code);
