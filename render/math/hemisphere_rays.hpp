@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
+#include <vector>
 
 namespace catchlight::render {
 
@@ -20,15 +22,28 @@ std::uint32_t seed_of(const glm::vec3& position, const glm::vec3& normal, std::u
 /// 2020).
 glm::dvec2 scrambled_sobol(std::uint32_t k, std::uint32_t seed);
 
-/// Directions around `normal`.
-class Hemisphere {
+/// Directions around a normal or an axis: those of the points k < count of scrambled_sobol, to single precision, in an order in
+/// which neighbours go much the same way. One object serves one thread.
+class HemisphereRays {
  public:
-  explicit Hemisphere(const glm::vec3& normal);
-  glm::vec3 direction(const glm::dvec2& square) const;                        ///< density cos / pi
-  glm::vec3 cone_direction(const glm::dvec2& square, double cos_cone) const;  ///< uniform within the angle of that cosine
+  explicit HemisphereRays(int count);
+
+  /// Spans of `count` values, to be filled.
+  struct Directions {
+    std::span<float> x, y, z;
+  };
+
+  /// Density cos / pi around `normal`.
+  void fill_hemisphere(const glm::vec3& normal, std::uint32_t seed, const Directions& out);
+  /// Uniform within the angle of that cosine around `axis`.
+  void fill_cone(const glm::vec3& axis, double cos_cone, std::uint32_t seed, const Directions& out);
 
  private:
-  glm::dvec3 tangent_, bitangent_, normal_;
+  void scatter(std::uint32_t seed);
+
+  int cell_bits_x_, cell_bits_y_;      ///< rays are sorted into 2^bits by 2^bits cells of the unit square
+  std::vector<std::uint32_t> second_;  ///< Sobol's second dimension, bits reversed
+  std::vector<std::uint32_t> x_, y_, sorted_x_, sorted_y_, cell_begin_;
 };
 
 }  // namespace catchlight::render

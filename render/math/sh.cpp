@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
@@ -15,16 +16,17 @@ constexpr double kPi = std::numbers::pi;
 // Factors of the recurrences for the normalised associated Legendre functions with sin^m taken out:
 //   N(m,m) = diagonal[m] N(m-1,m-1),   N(l,m) = a (z N(l-1,m) - b N(l-2,m)).
 // Normalising before, not after, the recurrence keeps every value near 1: no factorials, no cancellation.
+template <typename Real>
 struct LegendreFactors {
-  std::array<double, kMaxShBands> diagonal{};
-  std::array<std::array<double, kMaxShBands>, kMaxShBands> a{}, b{};
+  std::array<Real, kMaxShBands> diagonal{};
+  std::array<std::array<Real, kMaxShBands>, kMaxShBands> a{}, b{};
 
   LegendreFactors() {
-    for (int m = 1; m < kMaxShBands; ++m) diagonal[m] = std::sqrt((2.0 * m + 1) / (2.0 * m));
+    for (int m = 1; m < kMaxShBands; ++m) diagonal[m] = static_cast<Real>(std::sqrt((2.0 * m + 1) / (2.0 * m)));
     for (int l = 1; l < kMaxShBands; ++l) {
       for (int m = 0; m < l; ++m) {
-        a[l][m] = std::sqrt((4.0 * l * l - 1) / (1.0 * l * l - m * m));
-        b[l][m] = l - 1 > m ? std::sqrt(((l - 1.0) * (l - 1) - m * m) / (4.0 * (l - 1) * (l - 1) - 1)) : 0.0;
+        a[l][m] = static_cast<Real>(std::sqrt((4.0 * l * l - 1) / (1.0 * l * l - m * m)));
+        if (l - 1 > m) b[l][m] = static_cast<Real>(std::sqrt(((l - 1.0) * (l - 1) - m * m) / (4.0 * (l - 1) * (l - 1) - 1)));
       }
     }
   }
@@ -32,7 +34,7 @@ struct LegendreFactors {
 
 template <typename Real>
 void evaluate(const glm::dvec3& direction, int bands, std::span<Real> out) {
-  static const LegendreFactors factors;
+  static const LegendreFactors<double> factors;
   if (bands < 1 || bands > kMaxShBands || out.size() != static_cast<std::size_t>(sh_count(bands))) {
     throw std::invalid_argument("evaluate_sh: " + std::to_string(bands) + " bands into " + std::to_string(out.size()) +
                                 " values");
@@ -56,6 +58,32 @@ void evaluate(const glm::dvec3& direction, int bands, std::span<Real> out) {
     if (m + 1 < bands) diagonal *= factors.diagonal[m + 1];
     const double cos_next = direction.x * cos_part - direction.y * sin_part;
     sin_part = direction.x * sin_part + direction.y * cos_part;
+    cos_part = cos_next;
+  }
+}
+
+/// Directions that go through the recurrences side by side.
+constexpr int kLanes = 8;
+using Lanes [[gnu::vector_size(kLanes * sizeof(float))]] = float;
+
+// The recurrences of evaluate(), lane by lane; the weight is taken along in the Legendre functions.
+[[gnu::target_clones("avx2", "default")]] void add_lanes(const std::array<Lanes, 4>& batch, int bands,
+                                                         const LegendreFactors<float>& factors, Lanes* sums) {
+  const Lanes x = batch[0], y = batch[1], z = batch[2], weight = batch[3];
+  Lanes diagonal = weight * (std::numbers::inv_sqrtpi_v<float> / 2), cos_part = x * 0 + 1, sin_part = x * 0;
+  for (int m = 0; m < bands; ++m) {
+    Lanes before = x * 0, legendre = diagonal;
+    for (int l = m;; ++l) {
+      sums[sh_index(l, m)] += legendre * cos_part;
+      if (m > 0) sums[sh_index(l, -m)] += legendre * sin_part;
+      if (l + 1 == bands) break;
+      const Lanes next = factors.a[l + 1][m] * (z * legendre - factors.b[l + 1][m] * before);
+      before = legendre, legendre = next;
+    }
+    if (m + 1 == bands) break;
+    diagonal *= factors.diagonal[m + 1] * (m == 0 ? std::numbers::sqrt2_v<float> : 1.0f);
+    const Lanes cos_next = x * cos_part - y * sin_part;
+    sin_part = x * sin_part + y * cos_part;
     cos_part = cos_next;
   }
 }
@@ -97,6 +125,24 @@ void evaluate_sh(const glm::dvec3& direction, int bands, std::span<float> out) {
 
 void evaluate_sh(const glm::dvec3& direction, int bands, std::span<double> out) {
   evaluate(direction, bands, out);
+}
+
+void add_sh(std::span<const float> x, std::span<const float> y, std::span<const float> z, std::span<const float> weight,
+            int bands, std::span<float> sums) {
+  static const LegendreFactors<float> factors;
+  std::array<Lanes, kMaxShBands * kMaxShBands> lane_sums;
+  std::memset(lane_sums.data(), 0, sums.size() * sizeof(Lanes));
+  for (std::size_t first = 0; first < x.size(); first += kLanes) {
+    std::array<Lanes, 4> batch{};  // lanes that are left over weigh nothing
+    const std::size_t bytes = std::min<std::size_t>(kLanes, x.size() - first) * sizeof(float);
+    std::memcpy(&batch[0], &x[first], bytes);
+    std::memcpy(&batch[1], &y[first], bytes);
+    std::memcpy(&batch[2], &z[first], bytes);
+    std::memcpy(&batch[3], &weight[first], bytes);
+    add_lanes(batch, bands, factors, lane_sums.data());
+  }
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    for (int k = 0; k < kLanes; ++k) sums[i] += lane_sums[i][k];
 }
 
 ShRgb rotate_sh(const ShRgb& coefficients, const glm::dmat3& rotation) {

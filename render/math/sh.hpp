@@ -25,6 +25,11 @@ constexpr int sh_count(int bands) {
 void evaluate_sh(const glm::dvec3& direction, int bands, std::span<float> out);
 void evaluate_sh(const glm::dvec3& direction, int bands, std::span<double> out);
 
+/// Adds weight[k] * y_i(direction k) of all k to sums[i], for all i < bands^2: many directions at once, in single precision. x,
+/// y, z and `weight` have a value a direction.
+void add_sh(std::span<const float> x, std::span<const float> y, std::span<const float> z, std::span<const float> weight,
+            int bands, std::span<float> sums);
+
 /// RGB coefficients of a radiance function.
 using ShRgb = std::vector<glm::vec3>;
 

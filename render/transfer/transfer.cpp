@@ -6,10 +6,8 @@
 #include <span>
 
 #include "catchlight/util/parallel.hpp"
-#include "render/math/hemisphere_rays.hpp"
 #include "render/math/sh.hpp"
-#include "render/mesh/bounds.hpp"
-#include "render/rays/ray_scene.hpp"
+#include "render/transfer/bake_points.hpp"
 #include "render/transfer/interior_vertices.hpp"
 
 namespace catchlight::render {
@@ -17,27 +15,17 @@ namespace {
 
 constexpr std::size_t kPointsPerTask = 64;
 
-// Rays start this share of the mesh's size above the surface: a hundred times the rounding of its coordinates, a hundredth of a
-// pixel.
-constexpr float kLift = 1e-5f;
-
 constexpr float kMinBounce = 0.004f;  // share of the brightest spot: what comes back of less is below one code of 255
 constexpr int kMinRays = 256;
 
+// What so many rays saw, of object and receiver each, is kept from one bounce to the next: up to 1 GB, where all of them meet
+// something, and a quarter as a rule.
+constexpr std::size_t kMaxKeptRays = std::size_t{1} << 26;
+
 using Basis = std::array<float, kMaxShBands * kMaxShBands>;
 
-// Diffuse albedo of each vertex; of a vertex that triangles of several materials share, the first one's. Metals have none.
-std::vector<glm::vec3> diffuse_albedos(const Mesh& mesh) {
-  std::vector<glm::vec3> albedo(mesh.vertices.size(), glm::vec3(0));
-  std::vector<bool> known(mesh.vertices.size());
-  for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
-    const std::uint32_t vertex = mesh.indices[i];
-    if (known[vertex]) continue;
-    known[vertex] = true;
-    const Material& material = mesh.materials[mesh.triangle_material[i / 3]];
-    albedo[vertex] = material.base_color * mesh.vertices[vertex].color * (1.0f - material.metallic);
-  }
-  return albedo;
+std::size_t tasks_of(std::size_t points) {
+  return (points + kPointsPerTask - 1) / kPointsPerTask;
 }
 
 // (1 / pi) integral of max(n . w, 0) y_i(w) dw.
@@ -49,41 +37,37 @@ void unshadowed_lobe(const glm::vec3& normal, int bands, std::span<float> lobe) 
   }
 }
 
+/// What each of some points sees, task by task, and the number of rays that it was found by.
+struct KeptLinks {
+  std::vector<LightLinks> tasks;
+  int rays = 0;  ///< 0: nothing is kept
+};
+
 class Baker {
  public:
-  Baker(const Mesh& mesh, const TransferOptions& options, const ProgressHandler& progress)
+  Baker(const Mesh& mesh, const ReceiverGrid& grid, const TransferOptions& options, const ProgressHandler& progress)
       : mesh_(mesh),
+        grid_(grid),
         options_(options),
         progress_(progress),
         count_(sh_count(options.bands)),
-        scene_(mesh),
-        albedo_(diffuse_albedos(mesh)) {
-    const Bounds bounds = bounds_of(mesh);
-    middle_m_ = bounds.middle_m();
-    radius_m_ = bounds.diagonal_m() * 0.5f;
-    lift_m_ = kLift * 2 * radius_m_;
+        points_(mesh, grid, options),
+        total_(static_cast<double>(points_.vertices() + grid.points()) * (1 + options.bounces)) {
+    transfer_.bands = options.bands;
+    transfer_.grid = grid;
+    transfer_.receiver_unshadowed.resize(count_);
+    unshadowed_lobe(glm::vec3(0, 0, 1), options.bands, transfer_.receiver_unshadowed);
   }
 
-  Transfer bake(const ReceiverGrid& grid) {
-    const std::size_t vertices = mesh_.vertices.size();
-    total_ = static_cast<double>(vertices + grid.points()) * (1 + options_.bounces);
-    Transfer transfer;
-    transfer.bands = options_.bands;
-    transfer.grid = grid;
-    transfer.receiver_unshadowed.resize(count_);
-    unshadowed_lobe(glm::vec3(0, 0, 1), options_.bands, transfer.receiver_unshadowed);
-    receiver_sends_back_ = options_.bounces > 0 && grid.points() > 0 && options_.receiver_albedo.known();
-    transfer.object_direct.resize(vertices * count_);
-    std::vector<char> is_interior(vertices);
-    for_points(vertices, [&](std::size_t v) { is_interior[v] = bake_direct(v, coefficients(transfer.object_direct, v)); });
-    const InteriorVertices interior(mesh_, is_interior);
-    interior.fill(transfer.object_direct);
-    const std::vector<char> covered = bake_receiver_direct(transfer);
-    transfer.object = transfer.object_direct;
-    transfer.receiver = transfer.receiver_direct;
-    bake_bounces(transfer, interior, covered);
+  Transfer bake() {
+    const InteriorVertices interior(mesh_, bake_object_direct());
+    interior.fill(transfer_.object_direct);
+    const std::vector<char> covered = bake_receiver_direct();
+    transfer_.object = transfer_.object_direct;
+    transfer_.receiver = transfer_.receiver_direct;
+    bake_bounces(interior, covered);
     if (progress_) progress_(1.0);  // light may have died away before the last bounce
-    return transfer;
+    return std::move(transfer_);
   }
 
  private:
@@ -91,74 +75,123 @@ class Baker {
     return std::span(all).subspan(i * count_, count_);
   }
 
+  // Calls work(begin, end, task) for tasks that together are all points.
   template <typename Work>
-  void for_points(std::size_t points, const Work& work) {
-    const std::size_t tasks = (points + kPointsPerTask - 1) / kPointsPerTask;
+  void for_tasks(std::size_t points, const Work& work) {
     const auto tell = [&](double share) { progress_((done_ + share * static_cast<double>(points)) / total_); };
-    const auto run = [&](std::size_t task) {
-      for (std::size_t i = task * kPointsPerTask; i < std::min(points, (task + 1) * kPointsPerTask); ++i) work(i);
-    };
-    parallel_for(tasks, options_.threads, run, progress_ ? ProgressHandler(tell) : ProgressHandler());
+    const auto run = [&](std::size_t task) { work(task * kPointsPerTask, std::min(points, (task + 1) * kPointsPerTask), task); };
+    parallel_for(tasks_of(points), options_.threads, run, progress_ ? ProgressHandler(tell) : ProgressHandler());
     done_ += static_cast<double>(points);
   }
 
-  // Calls visit(origin, direction) for every ray of the point.
-  template <typename Visit>
-  void for_rays(const glm::vec3& position_m, const glm::vec3& normal, int rays, const Visit& visit) const {
-    const Hemisphere hemisphere(normal);
-    glm::vec3 origin_m = position_m + lift_m_ * glm::normalize(normal);
-    if (receiver_sends_back_) origin_m.z = std::max(origin_m.z, lift_m_);
-    const std::uint32_t seed = seed_of(position_m, normal, options_.seed);
-    for (int k = 0; k < rays; ++k) visit(origin_m, hemisphere.direction(scrambled_sobol(k, seed)));
+  int rays_of(int bounce) const { return std::max(options_.rays >> (2 * bounce), std::min(options_.rays, kMinRays)); }
+
+  // Whether links of so many points are kept that were found by this many rays, for a bounce that uses as many.
+  bool keeps_for(int bounce, int rays, std::size_t points) const {
+    return bounce < options_.bounces && rays_of(bounce) == rays && points * static_cast<std::size_t>(rays) <= kMaxKeptRays;
   }
+
+  // Fills object_direct. Returns which vertices lie within another part.
+  std::vector<char> bake_object_direct() {
+    const std::size_t vertices = points_.vertices();
+    transfer_.object_direct.resize(vertices * count_);
+    correction_.resize(vertices);
+    std::vector<char> is_interior(vertices);
+    to_object_ = {std::vector<LightLinks>(tasks_of(vertices)), keeps_for(0, options_.rays, vertices) ? options_.rays : 0};
+    for_tasks(vertices, [&](std::size_t begin, std::size_t end, std::size_t task) {
+      PointRays rays(points_.scene(), options_.rays);
+      for (std::size_t v = begin; v < end; ++v) {
+        if (is_dark(v)) {
+          if (to_object_.rays > 0) to_object_.tasks[task].end_point();
+          continue;
+        }
+        points_.send_from_vertex(v, rays);
+        is_interior[v] = looks_at_backs(rays.rays());
+        bake_direct(v, rays);
+        correction_[v] = points_.receiver_correction(rays);
+        if (to_object_.rays > 0) points_.link_vertex(rays, to_object_.tasks[task]);
+      }
+    });
+    return is_interior;
+  }
+
+  bool is_dark(std::size_t v) const { return points_.albedo()[v] == glm::vec3(0); }
 
   // The transfer is the closed form of the open hemisphere less what the occluded rays would have brought: exact where nothing is
-  // in the way, and elsewhere only the blocked part is uncertain. Returns whether the vertex lies within another part.
-  bool bake_direct(std::size_t v, std::span<glm::vec3> out) const {
-    const Vertex& vertex = mesh_.vertices[v];
-    if (albedo_[v] == glm::vec3(0)) return false;
-    int escaped = 0;
-    Basis lobe, basis, blocked{};
-    unshadowed_lobe(vertex.normal, options_.bands, std::span(lobe).first(count_));
-    for_rays(vertex.position_m, vertex.normal, options_.rays, [&](const glm::vec3& origin_m, const glm::vec3& direction) {
-      if (!scene_.occluded(origin_m, direction)) {
-        ++escaped;
-        return;
-      }
-      evaluate_sh(direction, options_.bands, std::span(basis).first(count_));
-      for (int i = 0; i < count_; ++i) blocked[i] += basis[i];
-    });
-    for (int i = 0; i < count_; ++i) out[i] = albedo_[v] * (lobe[i] - blocked[i] / static_cast<float>(options_.rays));
-    return escaped == 0 && looks_at_backs(vertex);
+  // in the way, and elsewhere only the blocked part is uncertain.
+  void bake_direct(std::size_t v, PointRays& rays) {
+    Basis lobe, blocked{};
+    unshadowed_lobe(mesh_.vertices[v].normal, options_.bands, std::span(lobe).first(count_));
+    rays.add_blocked_light(options_.bands, std::span(blocked).first(count_));
+    const std::span<glm::vec3> out = coefficients(transfer_.object_direct, v);
+    for (int i = 0; i < count_; ++i) out[i] = points_.albedo()[v] * (lobe[i] - blocked[i]);
   }
 
-  // Whether rays meet backs of faces, as from within a solid; in a narrow gap or a closed room they meet fronts.
-  bool looks_at_backs(const Vertex& vertex) const {
-    constexpr int kRays = 64;
-    int backs = 0;
-    for_rays(vertex.position_m, vertex.normal, kRays, [&](const glm::vec3& origin_m, const glm::vec3& direction) {
-      const auto hit = scene_.closest_hit(origin_m, direction);
-      backs += hit && !hit->front_facing;
+  // Whether no ray escapes and most meet backs of faces, as from within a solid; in a narrow gap or a closed room they meet
+  // fronts.
+  static bool looks_at_backs(const RayStream& rays) {
+    std::size_t backs = 0;
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+      if (!rays.meets(k)) return false;
+      backs += !rays.is_front_facing(k);
+    }
+    return backs > rays.size() / 2;
+  }
+
+  // Fills receiver_direct. Returns which points the object covers: no ray escapes, so no camera sees them, and a good part of
+  // them look at back faces (half of them where the point lies on a wall).
+  std::vector<char> bake_receiver_direct() {
+    transfer_.receiver_direct.resize(grid_.points() * count_);
+    std::vector<char> covered(grid_.points());
+    to_receiver_ = {std::vector<LightLinks>(tasks_of(grid_.points())),
+                    keeps_for(0, options_.rays, grid_.points()) ? options_.rays : 0};
+    for_tasks(grid_.points(), [&](std::size_t begin, std::size_t end, std::size_t task) {
+      PointRays rays(points_.scene(), options_.rays);
+      for (std::size_t p = begin; p < end; ++p) {
+        points_.send_from_receiver(p, rays);
+        covered[p] = is_covered(rays);
+        Basis blocked{};
+        rays.add_blocked_light(options_.bands, std::span(blocked).first(count_));
+        const std::span<glm::vec3> out = coefficients(transfer_.receiver_direct, p);
+        for (int i = 0; i < count_; ++i) out[i] = glm::vec3(transfer_.receiver_unshadowed[i] - blocked[i]);
+        if (to_receiver_.rays > 0) points_.link_receiver(rays, to_receiver_.tasks[task]);
+      }
     });
-    return backs > kRays / 2;
+    const std::vector<glm::vec3> unshadowed(transfer_.receiver_unshadowed.begin(), transfer_.receiver_unshadowed.end());
+    finish_receiver(covered, unshadowed, transfer_.receiver_direct);
+    return covered;
+  }
+
+  static bool is_covered(const PointRays& point_rays) {
+    const RayStream& rays = point_rays.rays();
+    float blocked = 0, inside = 0;
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+      if (!rays.meets(k)) continue;
+      blocked += point_rays.weights()[k];
+      if (!rays.is_front_facing(k)) inside += point_rays.weights()[k];
+    }
+    return blocked > 1 - 0.5f / static_cast<float>(rays.size()) && inside > 0.25f;
+  }
+
+  void finish_receiver(const std::vector<char>& covered, const std::vector<glm::vec3>& beyond,
+                       std::span<glm::vec3> values) const {
+    fill_covered(grid_, covered, values);
+    fade_rim(grid_, beyond, values);
   }
 
   // Sends light over one more surface each time, until it stops mattering. What came last is passed on alone, so that fewer rays
   // do for it the less it is.
-  void bake_bounces(Transfer& transfer, const InteriorVertices& interior, const std::vector<char>& covered) {
-    const std::size_t vertices = mesh_.vertices.size();
-    std::vector<glm::vec3> last = transfer.object_direct, sent_up = sent_up_by(transfer.receiver_direct, transfer.grid);
-    for (int bounce = 0; bounce < options_.bounces && largest(last) > kMinBounce * largest(transfer.object); ++bounce) {
-      const int rays = std::max(options_.rays >> (2 * bounce), std::min(options_.rays, kMinRays));
-      std::vector<glm::vec3> next(last.size()), on_receiver(transfer.receiver.size());
-      for_points(vertices, [&](std::size_t v) { gather(v, rays, last, transfer, sent_up, bounce == 0, coefficients(next, v)); });
-      for_points(transfer.grid.points(),
-                 [&](std::size_t p) { gather_on_receiver(p, rays, last, transfer.grid, coefficients(on_receiver, p)); });
+  void bake_bounces(const InteriorVertices& interior, const std::vector<char>& covered) {
+    std::vector<glm::vec3> last = transfer_.object_direct, sent_up = sent_up_by(transfer_.receiver_direct);
+    for (int bounce = 0; bounce < options_.bounces && largest(last) > kMinBounce * largest(transfer_.object); ++bounce) {
+      std::vector<glm::vec3> next(last.size()), on_receiver(transfer_.receiver.size());
+      gather_at_vertices(bounce, last, sent_up, next);
+      gather_on_receiver(bounce, last, on_receiver);
       interior.fill(next);
-      finish_receiver(transfer.grid, covered, std::vector(count_, glm::vec3(0)), on_receiver);
-      add(next, transfer.object);
-      add(on_receiver, transfer.receiver);
-      sent_up = sent_up_by(on_receiver, transfer.grid);
+      finish_receiver(covered, std::vector(count_, glm::vec3(0)), on_receiver);
+      add(next, transfer_.object);
+      add(on_receiver, transfer_.receiver);
+      sent_up = sent_up_by(on_receiver);
       last = std::move(next);
     }
   }
@@ -174,126 +207,72 @@ class Baker {
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += more[i];
   }
 
-  // Gathers what leaves the vertex of the light that front faces and the receiver sent in its direction.
-  void gather(std::size_t v, int rays, const std::vector<glm::vec3>& sent, const Transfer& transfer,
-              const std::vector<glm::vec3>& sent_up, bool first_time, std::span<glm::vec3> out) const {
-    if (albedo_[v] == glm::vec3(0)) return;
-    const float share = 1.0f / static_cast<float>(rays);
-    for_rays(mesh_.vertices[v].position_m, mesh_.vertices[v].normal, rays,
-             [&](const glm::vec3& origin_m, const glm::vec3& direction) {
-               if (const auto hit = scene_.closest_hit(origin_m, direction)) {
-                 add_exit_radiance(*hit, sent, share, out);
-               } else if (receiver_sends_back_ && direction.z < 0) {
-                 const glm::vec2 place_m = glm::vec2(origin_m) - origin_m.z / direction.z * glm::vec2(direction);
-                 const auto p = transfer.grid.nearest(place_m);
-                 for (int i = 0; p && i < count_; ++i) out[i] += share * sent_up[*p * count_ + i];
-                 if (first_time) correct_for_receiver(place_m, direction, !p, transfer, share, out);
-               }
-             });
-    for (glm::vec3& value : out) value *= albedo_[v];
+  // Calls link(point, rays, links) for points whose links are not kept, then use(point, links, number among the links), and keeps
+  // the links where the next bounce has as many rays.
+  template <typename Link, typename Use>
+  void for_linked(int bounce, std::size_t points, KeptLinks& kept, const Link& link, const Use& use) {
+    const bool is_kept = kept.rays == rays_of(bounce), keeps = keeps_for(bounce + 1, rays_of(bounce), points);
+    for_tasks(points, [&](std::size_t begin, std::size_t end, std::size_t task) {
+      LightLinks& links = kept.tasks[task];
+      if (!is_kept) {
+        links = {};
+        PointRays rays(points_.scene(), rays_of(bounce));
+        for (std::size_t i = begin; i < end; ++i) link(i, rays, links);
+      }
+      for (std::size_t i = begin; i < end; ++i) use(i, links, i - begin);
+      if (!keeps) links = {};
+    });
+    kept.rays = keeps ? rays_of(bounce) : 0;
   }
 
-  // The light counts what the probe saw below the plane as infinitely far away and open to the sky: this takes that out, for what
-  // is met where the plane is. Both are shares of the light that reaches the plane, so no sharp horizon has to be held by a few
-  // bands.
-  void correct_for_receiver(const glm::vec2& place_m, const glm::vec3& direction, bool beyond_grid, const Transfer& transfer,
-                            float share, std::span<glm::vec3> sum) const {
-    glm::vec3 albedo = -options_.receiver_albedo.towards(direction);
-    if (beyond_grid) albedo += options_.receiver_albedo.at(place_m);
-    for (int i = 0; i < count_; ++i) sum[i] += share * transfer.receiver_unshadowed[i] * albedo;
+  // Gathers what leaves the vertices of the light that front faces and the receiver sent in their direction.
+  void gather_at_vertices(int bounce, const std::vector<glm::vec3>& sent, const std::vector<glm::vec3>& sent_up,
+                          std::vector<glm::vec3>& next) {
+    const auto link = [&](std::size_t v, PointRays& rays, LightLinks& links) {
+      if (is_dark(v)) return links.end_point();
+      points_.send_from_vertex(v, rays);
+      points_.link_vertex(rays, links);
+    };
+    for_linked(bounce, points_.vertices(), to_object_, link, [&](std::size_t v, const LightLinks& links, std::size_t number) {
+      const std::span<glm::vec3> out = coefficients(next, v);
+      links.gather(number, mesh_.indices, sent, sent_up, out);
+      for (int i = 0; bounce == 0 && i < count_; ++i) out[i] += transfer_.receiver_unshadowed[i] * correction_[v];
+      for (glm::vec3& value : out) value *= points_.albedo()[v];
+    });
+  }
+
+  // Gathers what the object sends down to the receiver.
+  void gather_on_receiver(int bounce, const std::vector<glm::vec3>& sent, std::vector<glm::vec3>& on_receiver) {
+    const auto link = [&](std::size_t p, PointRays& rays, LightLinks& links) {
+      points_.send_from_receiver(p, rays);
+      points_.link_receiver(rays, links);
+    };
+    for_linked(bounce, grid_.points(), to_receiver_, link, [&](std::size_t p, const LightLinks& links, std::size_t number) {
+      links.gather(number, mesh_.indices, sent, {}, coefficients(on_receiver, p));
+    });
   }
 
   // The light that each of the receiver's points sends back.
-  std::vector<glm::vec3> sent_up_by(const std::vector<glm::vec3>& receiver, const ReceiverGrid& grid) const {
+  std::vector<glm::vec3> sent_up_by(const std::vector<glm::vec3>& receiver) const {
     std::vector<glm::vec3> sent_up;
-    if (!receiver_sends_back_) return sent_up;
+    if (!points_.receiver_sends_back()) return sent_up;
     sent_up.reserve(receiver.size());
-    for (std::size_t p = 0; p < grid.points(); ++p) {
-      const glm::vec3 albedo = options_.receiver_albedo.at(grid.place_m(p));
+    for (std::size_t p = 0; p < grid_.points(); ++p) {
+      const glm::vec3 albedo = options_.receiver_albedo.at(grid_.place_m(p));
       for (int i = 0; i < count_; ++i) sent_up.push_back(albedo * receiver[p * count_ + i]);
     }
     return sent_up;
   }
 
-  void add_exit_radiance(const RayHit& hit, const std::vector<glm::vec3>& object, float share, std::span<glm::vec3> sum) const {
-    if (!hit.front_facing) return;  // the inside of a solid is dark
-    const std::array<float, 3> weight{share * (1 - hit.u - hit.v), share * hit.u, share * hit.v};
-    for (int k = 0; k < 3; ++k) {
-      const glm::vec3* corner = &object[static_cast<std::size_t>(mesh_.indices[3 * hit.triangle + k]) * count_];
-      for (int i = 0; i < count_; ++i) sum[i] += weight[k] * corner[i];
-    }
-  }
-
-  // Calls visit(direction, weight) so that the sum of weight * f = (1 / pi) integral of max(z, 0) f dw for any f that is 0 where
-  // the object is not. From afar the object is small in the sky: there the rays go into the cone around its bounding sphere,
-  // uniformly.
-  template <typename Visit>
-  void for_receiver_rays(const glm::vec3& origin_m, int rays, const Visit& visit) const {
-    const std::uint32_t seed = seed_of(origin_m, glm::vec3(0, 0, 1), options_.seed);
-    const glm::vec3 to_middle_m = middle_m_ - origin_m;
-    const double sin_cone = radius_m_ / glm::length(to_middle_m);
-    const bool narrow = sin_cone < 0.7;
-    const double cos_cone = narrow ? std::sqrt(1 - sin_cone * sin_cone) : 0;
-    const Hemisphere hemisphere(narrow ? to_middle_m : glm::vec3(0, 0, 1));
-    for (int k = 0; k < rays; ++k) {
-      const glm::dvec2 square = scrambled_sobol(k, seed);
-      const glm::vec3 direction = narrow ? hemisphere.cone_direction(square, cos_cone) : hemisphere.direction(square);
-      const double weight = narrow ? 2 * (1 - cos_cone) * std::max(direction.z, 0.0f) : 1.0;
-      if (weight > 0) visit(direction, static_cast<float>(weight / rays));
-    }
-  }
-
-  // Fills receiver_direct. Returns which points the object covers: no ray escapes, so no camera sees them, and a good part of
-  // them look at back faces (half of them where the point lies on a wall).
-  std::vector<char> bake_receiver_direct(Transfer& transfer) {
-    const ReceiverGrid& grid = transfer.grid;
-    transfer.receiver_direct.resize(grid.points() * count_);
-    std::vector<char> covered(grid.points());
-    for_points(grid.points(), [&](std::size_t p) {
-      const glm::vec3 origin_m(grid.place_m(p), lift_m_);
-      Basis basis, blocked_light{};
-      float blocked = 0, inside = 0;
-      for_receiver_rays(origin_m, options_.rays, [&](const glm::vec3& direction, float weight) {
-        const auto hit = scene_.closest_hit(origin_m, direction);
-        if (!hit) return;
-        blocked += weight;
-        if (!hit->front_facing) inside += weight;
-        evaluate_sh(direction, options_.bands, std::span(basis).first(count_));
-        for (int i = 0; i < count_; ++i) blocked_light[i] += weight * basis[i];
-      });
-      const std::span<glm::vec3> out = coefficients(transfer.receiver_direct, p);
-      for (int i = 0; i < count_; ++i) out[i] = glm::vec3(transfer.receiver_unshadowed[i] - blocked_light[i]);
-      covered[p] = blocked > 1 - 0.5f / static_cast<float>(options_.rays) && inside > 0.25f;
-    });
-    const std::vector<glm::vec3> unshadowed(transfer.receiver_unshadowed.begin(), transfer.receiver_unshadowed.end());
-    finish_receiver(grid, covered, unshadowed, transfer.receiver_direct);
-    return covered;
-  }
-
-  // Gathers what the object sends down to the point.
-  void gather_on_receiver(std::size_t p, int rays, const std::vector<glm::vec3>& sent, const ReceiverGrid& grid,
-                          std::span<glm::vec3> out) const {
-    const glm::vec3 origin_m(grid.place_m(p), lift_m_);
-    for_receiver_rays(origin_m, rays, [&](const glm::vec3& direction, float weight) {
-      if (const auto hit = scene_.closest_hit(origin_m, direction)) add_exit_radiance(*hit, sent, weight, out);
-    });
-  }
-
-  static void finish_receiver(const ReceiverGrid& grid, const std::vector<char>& covered, const std::vector<glm::vec3>& beyond,
-                              std::span<glm::vec3> values) {
-    fill_covered(grid, covered, values);
-    fade_rim(grid, beyond, values);
-  }
-
   const Mesh& mesh_;
+  const ReceiverGrid& grid_;
   const TransferOptions& options_;
   const ProgressHandler& progress_;
   int count_;
-  RayScene scene_;
-  std::vector<glm::vec3> albedo_;
-  glm::vec3 middle_m_{0};  // middle of a sphere around the object
-  float radius_m_ = 0, lift_m_ = 0;
-  bool receiver_sends_back_ = false;
+  BakePoints points_;
+  Transfer transfer_;
+  KeptLinks to_object_, to_receiver_;
+  std::vector<glm::vec3> correction_;  // of each vertex: BakePoints::receiver_correction
   double done_ = 0, total_ = 1;
 };
 
@@ -307,7 +286,7 @@ Transfer bake_transfer(const Mesh& mesh_tag, const ReceiverGrid& grid, const Tra
   }
   if (options.rays < 1) throw Error("light transfer: " + std::to_string(options.rays) + " rays: expected at least 1");
   if (options.bounces < 0) throw Error("light transfer: " + std::to_string(options.bounces) + " bounces: expected 0 or more");
-  return Baker(mesh_tag, options, progress).bake(grid);
+  return Baker(mesh_tag, grid, options, progress).bake();
 }
 
 }  // namespace catchlight::render

@@ -2,7 +2,6 @@
 // object, and arrives at each point of the receiver, with shadows and interreflection. Baked with Embree; no GL.
 #pragma once
 
-#include <cstdint>
 #include <glm/glm.hpp>
 #include <string>
 #include <vector>
@@ -10,22 +9,10 @@
 #include "catchlight/error.hpp"
 #include "catchlight/progress.hpp"
 #include "render/mesh/mesh.hpp"
-#include "render/transfer/receiver_albedo.hpp"
 #include "render/transfer/receiver_grid.hpp"
+#include "render/transfer/transfer_options.hpp"
 
 namespace catchlight::render {
-
-struct TransferOptions {
-  int bands = 6;
-  int rays = 512;   ///< rays of a vertex, over the hemisphere
-  int bounces = 0;  ///< interreflections within the object, and between it and the receiver
-  /// The receiver's albedo counts where `bounces` and a grid are given: its light then reaches the object from its true place,
-  /// darkened by the object, and only what lies above the plane counts as sky. Unknown: what is below is lit and as far away as
-  /// the sky.
-  ReceiverAlbedo receiver_albedo = {};
-  std::uint32_t seed = 1;
-  int threads = 0;  ///< 0: all cores. The result does not depend on it.
-};
 
 /// What bake_transfer makes, all in the tag frame. Vertex v's exit radiance per channel = sum_i light_i * object[v * n^2 + i]:
 /// albedo (of the diffuse part) included. Receiver point p's irradiance relative to the unshadowed one = dot(light, receiver[p])

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Raise when the bake or the file changes: older files then no longer match.
-constexpr std::uint32_t kFormatVersion = 4;
+constexpr std::uint32_t kFormatVersion = 5;
 constexpr std::array<char, 8> kMagic{'C', 'L', 'T', 'R', 'A', 'N', 'S', 'F'};
 
 // 128 bits out of two FNV-1a hashes over 64-bit words (Fowler, Noll & Vo) with different starts. Guards against accidents, not

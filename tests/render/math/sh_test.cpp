@@ -248,5 +248,24 @@ TEST(Irradiance, OfALinearSkyIsTwoThirdsOfItsSlope) {
   EXPECT_NEAR(irradiance_over_pi(light, {1, 0, 0}).x, 0, kFloat);
 }
 
+TEST(ShSums, AreTheSumsOfSingleDirections) {
+  std::mt19937 random(5);
+  std::normal_distribution<float> spread;
+  for (const int bands : {1, 2, 7, kMaxShBands}) {
+    for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{8}, std::size_t{37}}) {
+      std::vector<float> x, y, z, weight, sums(sh_count(bands), 1.0f);
+      std::vector<double> expected(sums.size(), 1.0), basis(sums.size());
+      for (std::size_t k = 0; k < count; ++k) {
+        const glm::vec3 direction = glm::normalize(glm::vec3(spread(random), spread(random), spread(random)));
+        x.push_back(direction.x), y.push_back(direction.y), z.push_back(direction.z), weight.push_back(spread(random));
+        evaluate_sh(direction, bands, std::span<double>(basis));
+        for (std::size_t i = 0; i < basis.size(); ++i) expected[i] += weight.back() * basis[i];
+      }
+      add_sh(x, y, z, weight, bands, sums);
+      for (std::size_t i = 0; i < sums.size(); ++i) EXPECT_NEAR(sums[i], expected[i], 2e-5) << bands << ' ' << count << ' ' << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace catchlight::render
