@@ -214,12 +214,13 @@ void GrainMeter::add(const FrameImage& frame, const TrackRow& row) {
 
 void GrainMeter::add_tag(const FrameImage& frame, const TrackRow& row, const BundledTag& tag) {
   const RigidTransform camera_from_tag = row.camera_from_tag * tag.tag_from_this;
-  const CodePlanes planes = frame.code_planes(region_of(camera_, camera_from_tag, tag));
+  const CodeView codes = frame.codes();
+  const CodePlanes planes = code_planes(codes, region_of(camera_, camera_from_tag, tag));
   if (planes.rect.empty()) return;
   std::vector<FlatPatch> flats;
   for (CellBlocks& cell : cells_of(planes, camera_, camera_from_tag, tag, row.blur_px2))
     if (cell.color.size() >= kMinBlocks && !cell.is_clipped && span_a_plane(cell.block_places))
-      flats.push_back(flat_of(cell, planes.rounding, frame.color()));
+      flats.push_back(flat_of(cell, codes.rounding, frame.color()));
   const auto paper = std::ranges::partition(flats, &FlatPatch::is_on_print);
   const std::span<const FlatPatch> print(flats.begin(), paper.begin());
   if (print.empty()) return;

@@ -53,12 +53,12 @@ struct CellMean {
   glm::ivec3 clipped{0};  ///< pixels
 };
 
-void count_clipped(const LinearPatch& patch, const glm::dvec3& linear, glm::ivec3& clipped) {
-  for (int c = 0; c < 3; ++c) clipped[c] += linear[c] >= patch.clipping_linear[c];
+void count_clipped(const PixelLight& light, const glm::dvec3& linear, glm::ivec3& clipped) {
+  for (int c = 0; c < 3; ++c) clipped[c] += linear[c] >= light.clipping_linear[c];
 }
 
 /// Mean of the nearest pixels to a grid of points in the cell's central half.
-CellMean cell_mean(const LinearPatch& patch, const CellGrid& grid, int column, int row) {
+CellMean cell_mean(const PixelLight& light, const CellGrid& grid, int column, int row) {
   CellMean mean;
   const double cell_px = grid.cell_px(column, row);
   if (cell_px < kMinCellPx) return mean;
@@ -67,10 +67,10 @@ CellMean cell_mean(const LinearPatch& patch, const CellGrid& grid, int column, i
     const double u = 0.25 + 0.5 * (i % across + 0.5) / across, v = 0.25 + 0.5 * (i / across + 0.5) / across;
     const auto seen = grid.seen_px(column + u, row + v);
     if (!seen) continue;
-    const auto rgb = patch.at(*seen);
+    const auto rgb = light.at(*seen);
     if (!rgb) continue;
-    mean.linear += *rgb;
-    count_clipped(patch, *rgb, mean.clipped);
+    mean.linear += glm::dvec3(*rgb);
+    count_clipped(light, *rgb, mean.clipped);
     ++mean.pixels;
   }
   if (mean.pixels > 0) mean.linear /= mean.pixels;
@@ -97,15 +97,19 @@ bool is_clipped(const std::vector<CellMean>& cells, int channel) {
 
 }  // namespace
 
-std::optional<glm::dvec3> LinearPatch::at(const glm::dvec2& seen_px) const {
-  const double x = std::round(seen_px.x) - rect.x, y = std::round(seen_px.y) - rect.y;
-  if (!(x >= 0 && x < rect.width && y >= 0 && y < rect.height)) return std::nullopt;
-  const float* value = &rgb[3 * (static_cast<std::size_t>(y) * rect.width + static_cast<std::size_t>(x))];
-  return glm::dvec3(value[0], value[1], value[2]);
+std::optional<glm::vec3> PixelLight::at(const glm::dvec2& seen_px) const {
+  const double x = std::floor(seen_px.x + 0.5), y = std::floor(seen_px.y + 0.5);
+  if (!(x >= 0 && x < codes.width_px && y >= 0 && y < codes.height_px)) return std::nullopt;
+  glm::vec3 code = codes.rgb(static_cast<int>(x), static_cast<int>(y));
+  if (!codes.is_real) code = glm::clamp(code, 0.0f, 1.0f);
+  return rec709_from_frame * glm::vec3(light_of_code(code.r, 0), light_of_code(code.g, 1), light_of_code(code.b, 2));
 }
 
-LinearPatch linear_patch(const Plate& plate, const PlateColor& color) {
-  return {plate.rect, linear_rgb(plate, color), clipping_linear(plate.format, color)};
+PixelLight pixel_light(const FrameImage& frame) {
+  const PlateColor color = frame.color();
+  const CodeView codes = frame.codes();
+  return {codes, LightTable(color), glm::inverse(color.plate_from_rec709),
+          clipping_linear(codes.is_real ? Plate::Format::rgb_f32 : Plate::Format::rgb_u8, color)};
 }
 
 PixelRect photometry_region(const CameraModel& camera, const RigidTransform& camera_from_tag, const TagTarget& target) {
@@ -133,27 +137,29 @@ PixelRect photometry_region(const CameraModel& camera, const RigidTransform& cam
 namespace {
 
 /// Least squares of every channel on the share of white, over the whole print.
-std::optional<TagPhotometry> unmixed_photometry(const LinearPatch& patch, const CameraModel& camera,
+std::optional<TagPhotometry> unmixed_photometry(const PixelLight& light, const CameraModel& camera,
                                                 const RigidTransform& camera_from_tag, const TagTarget& target,
                                                 const TagLayout& layout, const Covariance2& blur_px2) {
   constexpr double kMinSpread = 0.02;  // variance of the share of white: less leaves nothing to tell them apart by
   const TagView view(camera, camera_from_tag, target.size_m, layout.cells_across);
   const TagPattern pattern(layout);
   TagPhotometry photometry;
-  double n = 0, w = 0, ww = 0, light = 0;
+  const PixelRect region = photometry_region(camera, camera_from_tag, target);
+  double n = 0, w = 0, ww = 0, white = 0;
   glm::ivec3 clipped(0);
   glm::dvec3 l(0.0), wl(0.0);
-  for (int row = 0; row < patch.rect.height; ++row)
-    for (int column = 0; column < patch.rect.width; ++column) {
-      const auto place = ideal_pixel(camera, {patch.rect.x + column, patch.rect.y + row});
+  for (int y = region.y; y < region.y + region.height; ++y)
+    for (int x = region.x; x < region.x + region.width; ++x) {
+      const auto place = ideal_pixel(camera, {x, y});
       const auto point = place ? view.at(place->ideal_px) : std::nullopt;
       if (!point || point->cell.x < 0 || point->cell.y < 0) continue;
       if (point->cell.x > layout.cells_across || point->cell.y > layout.cells_across) continue;
       const PatternSample sample = pattern.sample(point->cell, in_cells(blur_px2, point->cell_per_px * place->ideal_per_seen));
-      if (!sample.known) continue;
-      const glm::dvec3 linear = *patch.at({patch.rect.x + column, patch.rect.y + row});
-      light += sample.white > 0.5;
-      if (sample.white > 0.5) count_clipped(patch, linear, clipped);
+      const auto seen = light.at({x, y});
+      if (!sample.known || !seen) continue;
+      const glm::dvec3 linear(*seen);
+      white += sample.white > 0.5;
+      if (sample.white > 0.5) count_clipped(light, linear, clipped);
       n += 1, w += sample.white, ww += sample.white * sample.white;
       l += linear, wl += sample.white * linear;
     }
@@ -163,17 +169,17 @@ std::optional<TagPhotometry> unmixed_photometry(const LinearPatch& patch, const 
   photometry.black_linear = glm::max((l - gain * w) / n, glm::dvec3(0.0));
   photometry.white_linear = photometry.black_linear + gain;
   for (int c = 0; c < 3; ++c) {
-    photometry.is_clipped[c] = clipped[c] > kClippedShare * light;
+    photometry.is_clipped[c] = clipped[c] > kClippedShare * white;
     if (photometry.is_clipped[c]) photometry.black_linear[c] = 0;
   }
-  photometry.white_pixels = static_cast<int>(light);
-  photometry.black_pixels = static_cast<int>(n - light);
+  photometry.white_pixels = static_cast<int>(white);
+  photometry.black_pixels = static_cast<int>(n - white);
   return glm::dot(gain, kLuminanceWeights) > 0 ? std::optional(photometry) : std::nullopt;
 }
 
 }  // namespace
 
-std::optional<TagPhotometry> measure_photometry(const LinearPatch& patch, const CameraModel& camera,
+std::optional<TagPhotometry> measure_photometry(const PixelLight& light, const CameraModel& camera,
                                                 const RigidTransform& camera_from_tag, const TagTarget& target,
                                                 const std::optional<Covariance2>& blur_px2) {
   const TagLayout layout = tag_layout(target.family, target.id);
@@ -184,7 +190,7 @@ std::optional<TagPhotometry> measure_photometry(const LinearPatch& patch, const 
     for (int column = -layout.margin; column < layout.cells_across + layout.margin; ++column) {
       const Ink ink = layout.at(column, row);
       if (ink == Ink::unknown) continue;
-      const CellMean mean = cell_mean(patch, grid, column, row);
+      const CellMean mean = cell_mean(light, grid, column, row);
       if (mean.pixels == 0) continue;
       (ink == Ink::white ? white : black).push_back(mean);
       (ink == Ink::white ? photometry.white_pixels : photometry.black_pixels) += mean.pixels;
@@ -192,7 +198,7 @@ std::optional<TagPhotometry> measure_photometry(const LinearPatch& patch, const 
   // Fewer than a ring's worth of either would let a single stain decide.
   constexpr std::size_t kMinCells = 8;
   if (white.size() < kMinCells || black.size() < kMinCells)
-    return blur_px2 ? unmixed_photometry(patch, camera, camera_from_tag, target, layout, *blur_px2) : std::nullopt;
+    return blur_px2 ? unmixed_photometry(light, camera, camera_from_tag, target, layout, *blur_px2) : std::nullopt;
   for (int c = 0; c < 3; ++c) {
     photometry.white_linear[c] = trimmed_mean(white, c);
     photometry.black_linear[c] = trimmed_mean(black, c);

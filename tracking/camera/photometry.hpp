@@ -2,28 +2,30 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "catchlight/camera.hpp"
+#include "catchlight/code_view.hpp"
+#include "catchlight/frame_image.hpp"
+#include "catchlight/light_table.hpp"
 #include "catchlight/pixel_rect.hpp"
-#include "catchlight/plate.hpp"
 #include "catchlight/rigid_transform.hpp"
 #include "catchlight/tag.hpp"
 #include "catchlight/track.hpp"
 
 namespace catchlight::tracking {
 
-/// Part of a frame in linear light: RGB float triples, row-major, `rect` says where in the frame. 1 = sensor white.
-struct LinearPatch {
-  PixelRect rect;
-  std::vector<float> rgb;
+/// A frame's light, pixel by pixel as it is asked for: linear RGB of Rec. 709's primaries, 1 = sensor white.
+struct PixelLight {
+  CodeView codes;
+  LightTable light_of_code;
+  glm::mat3 rec709_from_frame{1.0f};
   glm::dvec3 clipping_linear;  ///< light of the clipping level: at or above, the true value is unknown
 
-  /// The nearest pixel's; empty outside.
-  std::optional<glm::dvec3> at(const glm::dvec2& seen_px) const;
+  /// The nearest pixel's; empty outside the picture.
+  std::optional<glm::vec3> at(const glm::dvec2& seen_px) const;
 };
 
-LinearPatch linear_patch(const Plate& plate, const PlateColor& color);
+PixelLight pixel_light(const FrameImage& frame);
 
 /// Linear RGB of the print's white and black, free of what the lens blurs into each other.
 struct TagPhotometry {
@@ -33,7 +35,7 @@ struct TagPhotometry {
   glm::bvec3 is_clipped{false};  ///< the channel's white is clipped: `white_linear` is only a lower bound
 };
 
-/// The pixels that measure_photometry() wants to see.
+/// The part of the picture that the print is seen in.
 PixelRect photometry_region(const CameraModel& camera, const RigidTransform& camera_from_tag, const TagTarget& target);
 
 /// Measures in the middles of the cells. Where these are too small, and the blur is known (direct refinement tells it), it takes
@@ -41,7 +43,7 @@ PixelRect photometry_region(const CameraModel& camera, const RigidTransform& cam
 /// done, or white is not brighter than black. A quarter of the cells may be clipped, shadowed, lit or stained at either end
 /// without harm, channel by channel; where more of the white is clipped, `is_clipped` says so (black is 0 where it is not known
 /// either).
-std::optional<TagPhotometry> measure_photometry(const LinearPatch& patch, const CameraModel& camera,
+std::optional<TagPhotometry> measure_photometry(const PixelLight& light, const CameraModel& camera,
                                                 const RigidTransform& camera_from_tag, const TagTarget& target,
                                                 const std::optional<Covariance2>& blur_px2 = {});
 

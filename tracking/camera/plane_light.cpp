@@ -46,7 +46,7 @@ struct Mean {
   bool is_whole = true;
 };
 
-Mean mean_of(const LinearPatch& patch, const CameraModel& camera, const RigidTransform& camera_from_tag, double size_m,
+Mean mean_of(const PixelLight& light, const CameraModel& camera, const RigidTransform& camera_from_tag, double size_m,
              const Place& place) {
   Mean mean;
   const int across = place.samples_across;
@@ -54,11 +54,11 @@ Mean mean_of(const LinearPatch& patch, const CameraModel& camera, const RigidTra
     const glm::dvec2 share = (glm::dvec2(i % across, i / across) + 0.5) / static_cast<double>(across);
     const glm::dvec2 at = size_m * (place.low + place.side * share);
     const auto seen = project_px(camera, camera_from_tag * glm::dvec3(at, 0));
-    const auto rgb = seen ? patch.at(*seen) : std::nullopt;
+    const auto rgb = seen ? light.at(*seen) : std::nullopt;
     mean.is_whole = rgb.has_value();
     if (!rgb) continue;
-    mean.sum += *rgb;
-    for (int c = 0; c < 3; ++c) mean.clipped[c] += (*rgb)[c] >= patch.clipping_linear[c];
+    mean.sum += glm::dvec3(*rgb);
+    for (int c = 0; c < 3; ++c) mean.clipped[c] += (*rgb)[c] >= light.clipping_linear[c];
     ++mean.samples;
   }
   return mean;
@@ -107,37 +107,19 @@ std::optional<MiddleHalf> middle_half(std::vector<Ratio> ratios) {
 
 }  // namespace
 
-PixelRect plane_region(const CameraModel& camera, const RigidTransform& camera_from_tag, const TagTarget& target) {
-  constexpr int kSteps = 2 * kPatchesAcross;
-  constexpr double kReach = 0.5 * kPatchesAcross / kPatchesPerTag;
-  const glm::dvec2 image(camera.width_px, camera.height_px);
-  glm::dvec2 low = image, high(0.0);
-  for (int i = 0; i <= kSteps; ++i)
-    for (int j = 0; j <= kSteps; ++j) {
-      const glm::dvec2 at = target.size_m * kReach * (2.0 * glm::dvec2(i, j) / static_cast<double>(kSteps) - 1.0);
-      const auto seen = project_px(camera, camera_from_tag * glm::dvec3(at, 0));
-      if (!seen || !std::isfinite(seen->x + seen->y)) continue;
-      low = glm::min(low, glm::floor(*seen));
-      high = glm::max(high, glm::ceil(*seen) + 1.0);
-    }
-  const glm::ivec2 from(glm::clamp(low, glm::dvec2(0), image)), to(glm::clamp(high, glm::dvec2(0), image));
-  const PixelRect region{from.x, from.y, to.x - from.x, to.y - from.y};
-  return region.empty() ? PixelRect{} : region;
-}
-
-PlaneLight measure_plane(const LinearPatch& patch, const CameraModel& camera, const RigidTransform& camera_from_tag,
+PlaneLight measure_plane(const PixelLight& light, const CameraModel& camera, const RigidTransform& camera_from_tag,
                          const TagTarget& target) {
-  PlaneLight light;
+  PlaneLight plane;
   for (const Place& place : places_of(target)) {
-    const Mean mean = mean_of(patch, camera, camera_from_tag, target.size_m, place);
+    const Mean mean = mean_of(light, camera, camera_from_tag, target.size_m, place);
     glm::vec3 linear(std::numeric_limits<float>::quiet_NaN());
     for (int c = 0; c < 3; ++c)
       if (mean.is_whole && mean.clipped[c] <= kClippedShare * mean.samples)
         linear[c] = static_cast<float>(mean.sum[c] / mean.samples);
-    light.linear.push_back(linear);
-    light.samples.push_back(static_cast<float>(mean.samples));
+    plane.linear.push_back(linear);
+    plane.samples.push_back(static_cast<float>(mean.samples));
   }
-  return light;
+  return plane;
 }
 
 std::optional<double> brightening(const PlaneLight& now, const PlaneLight& then, int channel) {

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "catchlight/camera.hpp"
-#include "catchlight/pixel_rect.hpp"
 #include "catchlight/rigid_transform.hpp"
 #include "catchlight/tag.hpp"
 #include "tracking/camera/photometry.hpp"
@@ -19,10 +18,7 @@ struct PlaneLight {
   std::vector<float> samples;  ///< a number for each place: what its mean is worth
 };
 
-/// The pixels that measure_plane() wants to see; empty where the tag's centre is not in front of the camera.
-PixelRect plane_region(const CameraModel& camera, const RigidTransform& camera_from_tag, const TagTarget& target);
-
-PlaneLight measure_plane(const LinearPatch& patch, const CameraModel& camera, const RigidTransform& camera_from_tag,
+PlaneLight measure_plane(const PixelLight& light, const CameraModel& camera, const RigidTransform& camera_from_tag,
                          const TagTarget& target);
 
 /// The factor by which a channel became brighter: the mean of the places' ratios, weighted by what the noise of light leaves of

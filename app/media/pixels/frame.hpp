@@ -32,9 +32,9 @@ class Frame : public FrameImage {
 
   /// RGB codes of a part of the frame, by swscale with the stream's own matrix and range, accurate rounding and full chroma
   /// interpolation: the same values as converting the whole frame.
-  Plate rgb(const PixelRect& rect) const override;
+  Plate rgb(const PixelRect& rect) const;
 
-  CodePlanes code_planes(const PixelRect& rect) const override;
+  CodeView codes() const override;
 
   /// The primaries that the stream declares, and its transfer function or the response given (unspecified: sRGB, Rec. 709).
   PlateColor color() const override;

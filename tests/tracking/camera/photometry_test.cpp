@@ -19,25 +19,35 @@ SyntheticScene one_tag(double distance_m, const std::string& family = "tag36h11"
   return scene;
 }
 
-/// The region's pixels, grey times `tint`.
-struct Patch {
-  PixelRect rect;
-  std::vector<float> rgb;
-  LinearPatch view() const { return {rect, rgb, glm::dvec3(0.955)}; }
+/// The frame's light, grey times `tint`.
+struct Light {
+  int width_px = 0, height_px = 0;
+  std::vector<glm::vec3> rgb;
+
+  PixelLight view(double clipping_linear = 0.955) const {
+    CodeView codes;
+    codes.width_px = width_px;
+    codes.height_px = height_px;
+    codes.is_real = true;
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      SampleView& samples = codes.samples[channel];
+      samples.kind = SampleView::Kind::real;
+      samples.data = reinterpret_cast<const std::uint8_t*>(rgb.data()) + channel * sizeof(float);
+      samples.step_bytes = sizeof(glm::vec3);
+      samples.stride_bytes = width_px * samples.step_bytes;
+    }
+    return {codes, LightTable({TransferFunction::linear}), glm::mat3(1), glm::dvec3(clipping_linear)};
+  }
 };
 
-Patch patch_of(const SyntheticScene& scene, const SyntheticFrame& frame, const glm::vec3& tint = glm::vec3(1)) {
-  Patch patch{photometry_region(scene.camera, scene.tags[0].camera_from_tag, scene.tags[0].target), {}};
-  for (int y = patch.rect.y; y < patch.rect.y + patch.rect.height; ++y)
-    for (int x = patch.rect.x; x < patch.rect.x + patch.rect.width; ++x) {
-      const float light = frame.linear[static_cast<std::size_t>(y * frame.width_px + x)];
-      for (int channel = 0; channel < 3; ++channel) patch.rgb.push_back(std::min(1.0f, light * tint[channel]));
-    }
-  return patch;
+Light light_of(const SyntheticFrame& frame, const glm::vec3& tint = glm::vec3(1), float most = 1) {
+  Light light{frame.width_px, frame.height_px, {}};
+  for (const float linear : frame.linear) light.rgb.push_back(glm::min(linear * tint, glm::vec3(most)));
+  return light;
 }
 
-std::optional<TagPhotometry> measure(const SyntheticScene& scene, const Patch& patch) {
-  return measure_photometry(patch.view(), scene.camera, scene.tags[0].camera_from_tag, scene.tags[0].target);
+std::optional<TagPhotometry> measure(const SyntheticScene& scene, const Light& light) {
+  return measure_photometry(light.view(), scene.camera, scene.tags[0].camera_from_tag, scene.tags[0].target);
 }
 
 class PhotometryOfFamily : public ::testing::TestWithParam<std::string> {};
@@ -45,7 +55,7 @@ class PhotometryOfFamily : public ::testing::TestWithParam<std::string> {};
 TEST_P(PhotometryOfFamily, MeasuresWhiteAndBlackPerChannel) {
   const SyntheticScene scene = one_tag(0.35, GetParam());
   const glm::vec3 tint(0.9f, 1.0f, 0.6f);
-  const auto measured = measure(scene, patch_of(scene, render(scene), tint));
+  const auto measured = measure(scene, light_of(render(scene), tint));
   ASSERT_TRUE(measured);
   for (int channel = 0; channel < 3; ++channel) {
     // Far from every edge there is no blur: what is left is the sampling of cells at their border's blurred tail.
@@ -63,7 +73,7 @@ TEST(Photometry, LooksThroughTheLens) {
   SyntheticScene scene = one_tag(0.3);
   scene.camera = distorted_camera();
   scene.tags[0].camera_from_tag = tag_pose(scene.camera, {150, 130}, 0.3, {30, 20, 15});
-  const auto measured = measure(scene, patch_of(scene, render(scene)));
+  const auto measured = measure(scene, light_of(render(scene)));
   ASSERT_TRUE(measured);
   EXPECT_NEAR(measured->white_linear.g, scene.white_linear, 0.002);
   EXPECT_NEAR(measured->black_linear.g, scene.black_linear, 0.002);
@@ -74,7 +84,7 @@ TEST(Photometry, AHighlightOnAFewCellsDoesNotCount) {
   SyntheticFrame frame = render(scene);
   for (int y = 225; y < 245; ++y)
     for (int x = 300; x < 320; ++x) frame.linear[static_cast<std::size_t>(y * frame.width_px + x)] = 0.9f;
-  const auto measured = measure(scene, patch_of(scene, frame));
+  const auto measured = measure(scene, light_of(frame));
   ASSERT_TRUE(measured);
   EXPECT_NEAR(measured->white_linear.g, scene.white_linear, 0.005);
   EXPECT_NEAR(measured->black_linear.g, scene.black_linear, 0.005);
@@ -83,14 +93,13 @@ TEST(Photometry, AHighlightOnAFewCellsDoesNotCount) {
 TEST(Photometry, ClippedWhiteIsNotTrusted) {
   SyntheticScene scene = one_tag(0.35);
   scene.white_linear = 1.3;
-  EXPECT_EQ(measure(scene, patch_of(scene, render(scene)))->is_clipped, glm::bvec3(true)) << "all channels";
+  EXPECT_EQ(measure(scene, light_of(render(scene)))->is_clipped, glm::bvec3(true)) << "all channels";
   scene.white_linear = 0.6;
-  const auto one = measure(scene, patch_of(scene, render(scene), {0.5f, 2.0f, 0.5f}));
+  const auto one = measure(scene, light_of(render(scene), {0.5f, 2.0f, 0.5f}));
   EXPECT_EQ(one->is_clipped, glm::bvec3(false, true, false));
   EXPECT_NEAR(one->white_linear.r, 0.3, 0.002) << "the others are as good as ever";
   EXPECT_NEAR(one->black_linear.g, 0.06, 0.002) << "and so is black";
-  EXPECT_EQ(measure(scene, patch_of(scene, render(scene), {1.5f, 1.5f, 1.5f}))->is_clipped, glm::bvec3(false))
-      << "bright, not clipped";
+  EXPECT_EQ(measure(scene, light_of(render(scene), {1.5f, 1.5f, 1.5f}))->is_clipped, glm::bvec3(false)) << "bright, not clipped";
 }
 
 TEST(Photometry, AFifthOfTheTagClippedByAHighlightDoesNotCount) {
@@ -100,7 +109,7 @@ TEST(Photometry, AFifthOfTheTagClippedByAHighlightDoesNotCount) {
   for (int y = region.y; y < region.y + region.height / 5; ++y)
     for (int x = region.x; x < region.x + region.width; ++x)
       frame.linear[static_cast<std::size_t>(y * frame.width_px + x)] = 5.0f;
-  const auto measured = measure(scene, patch_of(scene, frame));
+  const auto measured = measure(scene, light_of(frame));
   ASSERT_TRUE(measured);
   EXPECT_EQ(measured->is_clipped, glm::bvec3(false));
   EXPECT_NEAR(measured->white_linear.g, scene.white_linear, 0.005);
@@ -111,13 +120,8 @@ TEST(Photometry, LightBeyondOneIsMeasuredWhereTheFootageHoldsIt) {
   SyntheticScene scene = one_tag(0.35);
   scene.white_linear = 4;
   const SyntheticFrame frame = render(scene);
-  const PixelRect region = photometry_region(scene.camera, scene.tags[0].camera_from_tag, {});
-  std::vector<float> rgb;
-  for (int y = region.y; y < region.y + region.height; ++y)
-    for (int x = region.x; x < region.x + region.width; ++x)
-      rgb.insert(rgb.end(), 3, frame.linear[static_cast<std::size_t>(y * frame.width_px + x)]);
-  const auto measured =
-      measure_photometry({region, rgb, glm::dvec3(40)}, scene.camera, scene.tags[0].camera_from_tag, scene.tags[0].target);
+  const auto measured = measure_photometry(light_of(frame, glm::vec3(1), 40).view(40), scene.camera,
+                                           scene.tags[0].camera_from_tag, scene.tags[0].target);
   ASSERT_TRUE(measured);
   EXPECT_EQ(measured->is_clipped, glm::bvec3(false));
   EXPECT_NEAR(measured->white_linear.g, 4, 0.02);
@@ -128,22 +132,22 @@ TEST(Photometry, ABlackFrameAndAWhiteFrameHaveNoMeasure) {
   SyntheticFrame frame = render(scene);
   for (const float light : {0.0f, 1.0f}) {
     std::fill(frame.linear.begin(), frame.linear.end(), light);
-    EXPECT_FALSE(measure(scene, patch_of(scene, frame))) << light;
+    EXPECT_FALSE(measure(scene, light_of(frame))) << light;
   }
 }
 
 TEST(Photometry, ATagWithCellsOfTwoPixelsIsTooSmall) {
   const SyntheticScene scene = one_tag(600 * 0.08 / 16);
-  EXPECT_FALSE(measure(scene, patch_of(scene, render(scene))));
+  EXPECT_FALSE(measure(scene, light_of(render(scene))));
 }
 
 TEST(Photometry, WithTheBlurKnownEvenCellsOfTwoPixelsAreUnmixed) {
   const glm::vec3 tint(0.9f, 1.0f, 0.6f);
   SyntheticScene scene = one_tag(2.4);
-  ASSERT_FALSE(measure(scene, patch_of(scene, render(scene), tint)));
+  ASSERT_FALSE(measure(scene, light_of(render(scene), tint)));
   const double blur_px2 = scene.blur_px * scene.blur_px + 1.0 / 12;
-  const Patch patch = patch_of(scene, render(scene), tint);
-  const auto unmixed = measure_photometry(patch.view(), scene.camera, scene.tags[0].camera_from_tag, scene.tags[0].target,
+  const Light light = light_of(render(scene), tint);
+  const auto unmixed = measure_photometry(light.view(), scene.camera, scene.tags[0].camera_from_tag, scene.tags[0].target,
                                           Covariance2{blur_px2, 0, blur_px2});
   ASSERT_TRUE(unmixed);
   for (int channel = 0; channel < 3; ++channel) {
@@ -155,9 +159,9 @@ TEST(Photometry, WithTheBlurKnownEvenCellsOfTwoPixelsAreUnmixed) {
 TEST(Photometry, ATagHalfOutOfTheFrameIsMeasuredByWhatIsSeen) {
   SyntheticScene scene = one_tag(0.35);
   scene.tags[0].camera_from_tag = tag_pose(scene.camera, {5, 240}, 0.35, {0, 0, 0});
-  const Patch patch = patch_of(scene, render(scene));
-  EXPECT_EQ(patch.rect.x, 0);
-  const auto measured = measure(scene, patch);
+  const Light light = light_of(render(scene));
+  EXPECT_EQ(photometry_region(scene.camera, scene.tags[0].camera_from_tag, scene.tags[0].target).x, 0);
+  const auto measured = measure(scene, light);
   ASSERT_TRUE(measured);
   EXPECT_NEAR(measured->white_linear.g, scene.white_linear, 0.002);
 }
@@ -182,11 +186,11 @@ TEST(Photometry, TheRegionHoldsTheWholeTag) {
   }
 }
 
-TEST(Photometry, AUniformPatchHasNoWhiteAndBlack) {
+TEST(Photometry, UniformLightHasNoWhiteAndBlack) {
   const SyntheticScene scene = one_tag(0.35);
   SyntheticFrame frame = render(scene);
   std::fill(frame.linear.begin(), frame.linear.end(), 0.3f);
-  EXPECT_FALSE(measure(scene, patch_of(scene, frame)));
+  EXPECT_FALSE(measure(scene, light_of(frame)));
 }
 
 }  // namespace
