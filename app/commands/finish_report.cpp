@@ -2,9 +2,9 @@
 
 namespace catchlight::app {
 
-void finish_report(const Session& session, const std::string& path, bool overwrite, Context& context) {
-  warn_of_lost_frames(session.report(), context.log);
-  const Report report = session.report();  // with that warning
+void finish_report(Session& session, const std::string& path, bool overwrite, Context& context) {
+  session.warn_of_track();
+  const Report report = session.report();  // with these warnings
   if (!path.empty()) write_report(path, report, overwrite);
   context.log.info(report_summary(report));
   if (!session.damage()) return;

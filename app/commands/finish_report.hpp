@@ -10,6 +10,6 @@ namespace catchlight::app {
 
 /// Tells the user of lost frames and of what was done, writes the report to `path` where that is not empty, and fails the command
 /// where the footage was damaged.
-void finish_report(const Session& session, const std::string& path, bool overwrite, Context& context);
+void finish_report(Session& session, const std::string& path, bool overwrite, Context& context);
 
 }  // namespace catchlight::app

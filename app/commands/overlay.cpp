@@ -5,7 +5,7 @@
 #include "app/commands/finish_report.hpp"
 #include "app/media/write/frame_output.hpp"
 #include "app/session/debug_drawing.hpp"
-#include "app/session/session.hpp"
+#include "app/session/run_stages.hpp"
 #include "app/support/output_file.hpp"
 #include "app/track_export/track_export.hpp"
 #include "catchlight/camera.hpp"
@@ -35,16 +35,10 @@ void check(const Options& options) {
 }
 
 void draw_frames(Session& session, FrameOutput& output, bool draws_debug) {
-  while (std::optional<FrameJob> job = session.decode()) {
-    session.track(*job);
-    if (job->is_before_range) {
-      session.skip(*job);
-      continue;
-    }
-    session.render(*job);
-    if (draws_debug) draw_debug(job->image, job->track, session.camera(), session.settings().tag.size_m, job->result);
-    session.measure("encode", [&] { output.write(job->image, job->result); });
-  }
+  run_stages(session, [&](FrameJob& job) {
+    if (draws_debug) draw_debug(job.image, job.track, session.camera(), session.settings().tag.size_m, job.result);
+    session.measure("encode", [&] { output.write(job.image, job.result); });
+  });
   output.finish();
 }
 
@@ -61,7 +55,6 @@ void overlay(const Options& options, Context& context) {
   SinkOptions sink = options.sink;
   sink.frames = range;
   const std::unique_ptr<FrameOutput> output = open_output(options.output, session.recording().footage, session.footage(), sink);
-  session.prepare();
   draw_frames(session, *output, options.debug);
 
   if (!options.track_out.empty())

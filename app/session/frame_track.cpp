@@ -1,5 +1,6 @@
 #include "app/session/frame_track.hpp"
 
+#include <algorithm>
 #include <map>
 
 #include "app/session/frame_view.hpp"
@@ -91,6 +92,7 @@ class TagTrack : public FrameTrack {
   }
 
   bool is_tracking() const override { return true; }
+  bool finds_any(const FrameRange&) const override { return true; }
   std::optional<std::string> warning() const override { return exposure_warning(exposure_.counts(), settings_); }
 
  private:
@@ -122,6 +124,9 @@ class RecordedTrack : public FrameTrack {
   }
 
   bool is_tracking() const override { return false; }
+  bool finds_any(const FrameRange& range) const override {
+    return std::ranges::any_of(rows_, [&](const auto& entry) { return range.contains(entry.first) && entry.second.found; });
+  }
   std::optional<std::string> warning() const override { return exposure_warning(exposure_.counts(), settings_); }
 
  private:

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/media/frame_range.hpp"
 #include "app/media/pixels/frame.hpp"
 #include "app/settings/scene_settings.hpp"
 #include "catchlight/camera.hpp"
@@ -22,6 +23,9 @@ class FrameTrack {
 
   /// Whether row() tracks, or only looks up what is known.
   virtual bool is_tracking() const = 0;
+
+  /// Whether the tag may be found in any frame of the range.
+  virtual bool finds_any(const FrameRange& range) const = 0;
 
   /// What the user should know of the rows so far, if anything.
   virtual std::optional<std::string> warning() const = 0;

@@ -26,7 +26,20 @@ std::string line_of(const StageTimer::Summary& stage) {
 
 }  // namespace
 
+StageTimer& StageTimer::operator=(const StageTimer& other) {
+  Samples samples = other.samples();
+  const std::lock_guard lock(mutex_);
+  samples_ms_ = std::move(samples);
+  return *this;
+}
+
+StageTimer::Samples StageTimer::samples() const {
+  const std::lock_guard lock(mutex_);
+  return samples_ms_;
+}
+
 void StageTimer::add(const std::string& stage, double ms) {
+  const std::lock_guard lock(mutex_);
   const auto known =
       std::find_if(samples_ms_.begin(), samples_ms_.end(), [&](const auto& entry) { return entry.first == stage; });
   if (known != samples_ms_.end())
@@ -37,7 +50,7 @@ void StageTimer::add(const std::string& stage, double ms) {
 
 std::vector<StageTimer::Summary> StageTimer::summaries() const {
   std::vector<Summary> summaries;
-  for (const auto& [stage, samples] : samples_ms_) {
+  for (const auto& [stage, samples] : samples()) {
     std::vector<double> sorted = samples.values();
     std::sort(sorted.begin(), sorted.end());
     summaries.push_back({stage, percentile(sorted, 0.5), percentile(sorted, 0.95)});

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,9 +14,14 @@
 
 namespace catchlight::app {
 
-/// Milliseconds by stage; the stages keep the order in which they first came.
+/// Milliseconds by stage, of the clock on the wall; the stages keep the order in which they first came. Stages may be timed on
+/// several threads at once.
 class StageTimer {
  public:
+  StageTimer() = default;
+  StageTimer(const StageTimer& other) : samples_ms_(other.samples()) {}
+  StageTimer& operator=(const StageTimer& other);
+
   void add(const std::string& stage, double ms);
 
   /// Runs `work` and adds its time.
@@ -39,7 +45,11 @@ class StageTimer {
     std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
     ~Running() { timer.add(stage, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count()); }
   };
-  std::vector<std::pair<std::string, ThinnedSample<double>>> samples_ms_;
+  using Samples = std::vector<std::pair<std::string, ThinnedSample<double>>>;
+  Samples samples() const;
+
+  mutable std::mutex mutex_;
+  Samples samples_ms_;
 };
 
 struct Report {

@@ -51,7 +51,7 @@ Session::Session(Recording recording, SessionOptions options, Log& log)
     : recording_(std::move(recording)),
       options_(std::move(options)),
       log_(log),
-      footage_(open_footage(recording_, log.warning_handler())),
+      footage_(open_source(recording_)),
       camera_(camera_for_footage(recording_, footage_->info().width_px, footage_->info().height_px)),
       renderer_(recording_.scene, camera_, options_.wants_layers, log) {
   check_range(recording_.footage, options_.range, footage_->info());
@@ -62,12 +62,13 @@ Session::Session(Recording recording, SessionOptions options, Log& log)
 void Session::prepare() {
   renderer_.load();
   renderer_.open_gl();
-  opened_track();
-  measure("build", [&] { renderer_.prepare(); });
+  const bool is_drawn =
+      opened_track().finds_any(options_.range) || (recodes_every_frame(recording_.scene) && !options_.wants_layers);
+  if (is_drawn) measure("build", [&] { renderer_.prepare(); });
 }
 
 std::optional<FrameJob> Session::decode() {
-  const FrameTrack& track = opened_track();
+  opened_track();
   if (!progress_) progress_.emplace(log_, options_.task, frames_to_read(footage_->info(), options_.range));
   try {
     std::optional<Frame> frame = measure("decode", [&] { return footage_->read(); });
@@ -83,7 +84,6 @@ std::optional<FrameJob> Session::decode() {
   progress_.reset();
   if (pass_.in_range == 0 && pass_.damage) throw DamagedMedia(*pass_.damage);
   if (pass_.in_range == 0) refuse_range(recording_.footage, options_.range, pass_.decoded, footage_->info().first_number);
-  if (const auto warning = track.warning()) log_.warn(*warning);
   return std::nullopt;
 }
 
@@ -119,8 +119,15 @@ std::unique_ptr<FrameTrack> Session::open_track() {
   const SceneSettings& scene = recording_.scene;
   if (!options_.track_file.empty()) return make_recorded_track(tracking::read_track_file(options_.track_file), camera_, scene);
   if (!is_solved_whole()) return make_tag_track(camera_, scene);
-  return make_recorded_track(
-      solve_shot(*open_footage(recording_), camera_, scene, options_.range, log_, pass_.report.stages).rows, camera_, scene);
+  footage_->keep(frames_to_track(footage_->info(), options_.range));
+  SolvedShot solved = solve_shot(*footage_, camera_, scene, options_.range, log_, pass_.report.stages);
+  footage_->rewind();
+  return make_recorded_track(std::move(solved.rows), camera_, scene);
+}
+
+std::unique_ptr<RewindableSource> Session::open_source(const Recording& recording) {
+  return std::make_unique<RewindableSource>(
+      open_footage(recording, log_.warning_handler()), [this] { return open_footage(recording_); }, options_.kept_bytes);
 }
 
 std::vector<TrackRow> Session::track_range() {
@@ -152,7 +159,7 @@ void Session::apply(const SceneSettings& settings) {
   Recording changed = recording_;
   changed.scene = settings;
   if (is_tracked_anew && !is_live) {
-    footage_ = open_footage(changed, log_.warning_handler());  // where this throws, all is as before
+    footage_ = open_source(changed);  // where this throws, all is as before
     progress_.reset();
     pass_ = {};
     renderer_.restart();
@@ -162,9 +169,36 @@ void Session::apply(const SceneSettings& settings) {
   if (is_tracked_anew) track_.reset();
 }
 
+void Session::warn_of_track() {
+  if (const auto warning = track_ ? track_->warning() : std::nullopt) log_.warn(*warning);
+  const Report& report = pass_.report;
+  const std::string of_frames = " of " + std::to_string(report.frames) + " frames";
+  if (report.frames > 0 && report.lost_frames == report.frames)
+    log_.warn(
+        "the tag was never found in " + std::to_string(report.frames) +
+        " frames, which pass through untouched; check tag.family, tag.id and that the tag is sharp and at least 20 px wide");
+  else if (report.lost_frames > 0)
+    log_.warn("no tag in " + std::to_string(report.lost_frames) + of_frames + ", which pass through untouched");
+}
+
+/// How often the footage is decoded, and why.
+PlanEntry Session::footage_entry() const {
+  if (footage_->info().is_live) return {"footage", "decoded once", "live footage is tracked frame by frame"};
+  if (!is_solved_whole()) return {"footage", "decoded once", "it is not tracked as a whole"};
+  const auto megabytes = [](std::int64_t bytes) { return std::to_string((bytes + 500'000) / 1'000'000) + " MB"; };
+  const RewindableSource::Kept& kept = footage_->kept();
+  if (kept.has_all) return {"footage", "decoded once", "tracking leaves its frames in memory, " + megabytes(kept.bytes)};
+  return {
+      "footage", "decoded twice",
+      "its frames take " + megabytes(kept.bytes) + " and more, over the " + megabytes(kept.budget_bytes) + " that may be kept"};
+}
+
 std::vector<PlanEntry> Session::plan() const {
   std::vector<PlanEntry> plan = renderer_.plan();
-  if (plan.empty() || !pass_.last_image) return plan;
+  if (!pass_.last_image) return plan;
+  const bool is_built = !plan.empty();
+  plan.push_back(footage_entry());
+  if (!is_built) return plan;
   plan.push_back(glare_entry(recording_.scene, pass_.report));
   std::vector<TrackRow> rows = pass_.typical_rows.values();
   if (rows.back().frame != pass_.last_row.frame) rows.push_back(pass_.last_row);
@@ -180,15 +214,6 @@ Report Session::report() const {
   report.plan = plan();
   report.warnings = log_.warnings();
   return report;
-}
-
-void warn_of_lost_frames(const Report& report, Log& log) {
-  const std::string of_frames = " of " + std::to_string(report.frames) + " frames";
-  if (report.frames > 0 && report.lost_frames == report.frames)
-    log.warn("the tag was never found in " + std::to_string(report.frames) +
-             " frames, which pass through untouched; check tag.family, tag.id and that the tag is sharp and at least 20 px wide");
-  else if (report.lost_frames > 0)
-    log.warn("no tag in " + std::to_string(report.lost_frames) + of_frames + ", which pass through untouched");
 }
 
 }  // namespace catchlight::app

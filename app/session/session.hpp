@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/media/frame_range.hpp"
-#include "app/media/read/source.hpp"
+#include "app/media/read/rewindable_source.hpp"
 #include "app/session/frame_job.hpp"
 #include "app/session/frame_track.hpp"
 #include "app/session/recording.hpp"
@@ -27,18 +27,22 @@ struct SessionOptions {
   bool is_causal = false;       ///< track recorded footage as live footage is: each frame knows only those before it
   bool wants_layers = false;    ///< draw layers for compositing packages
   bool keeps_track = false;     ///< track_rows() is wanted: they grow with the footage
+  std::int64_t kept_bytes = kept_frames_budget();  ///< of frames that are kept from tracking, so that they are decoded once
 };
 
 /// while (auto job = session.decode()) session.track(*job), session.render(*job), ...
 ///
 /// Recorded footage is tracked as a whole, from its first frame to a second after the range, before the first frame is handed
 /// out, so that poses hardly depend on the range; live footage frame by frame. Frames before the range are handed out too
-/// (is_before_range), to be tracked and skipped. Throws Error as the footage, the camera, the track file and the scene do.
+/// (is_before_range), to be tracked and skipped. Once prepared, decode(), track(), render() (or skip()) and measure() may each be
+/// called on a thread of its own, a frame by one after the other; see run_stages.hpp. Throws Error as the footage, the camera,
+/// the track file and the scene do.
 class Session {
  public:
   Session(Recording recording, SessionOptions options, Log& log);
 
-  /// Does at once what otherwise happens when it is first needed: reads the scene's files, tracks recorded footage, and bakes.
+  /// Does at once what otherwise happens when it is first needed: reads the scene's files, tracks recorded footage, and bakes
+  /// where there will be something to draw.
   void prepare();
 
   /// The next frame; none at the end of the range or of the footage, or where the footage is damaged.
@@ -79,6 +83,9 @@ class Session {
   /// The report on what was done so far.
   Report report() const;
 
+  /// Warns of what the user should know of the track so far: an exposure that could not be read, frames without the tag.
+  void warn_of_track();
+
   /// Runs `work`, e.g. encoding, as a stage of the report.
   template <class Work>
   decltype(auto) measure(const std::string& stage, Work&& work) {
@@ -103,19 +110,18 @@ class Session {
   bool is_solved_whole() const;
   FrameTrack& opened_track();
   std::unique_ptr<FrameTrack> open_track();
+  std::unique_ptr<RewindableSource> open_source(const Recording& recording);
+  PlanEntry footage_entry() const;
 
   Recording recording_;
   SessionOptions options_;
   Log& log_;
-  std::unique_ptr<MediaSource> footage_;
+  std::unique_ptr<RewindableSource> footage_;
   CameraModel camera_;
   std::unique_ptr<FrameTrack> track_;  ///< null until it is first needed
   ShotRenderer renderer_;
   std::optional<Progress> progress_;
   Pass pass_;
 };
-
-/// How many frames of a finished job passed through untouched, and what to check where all did; nothing where none did.
-void warn_of_lost_frames(const Report& report, Log& log);
 
 }  // namespace catchlight::app

@@ -1,12 +1,16 @@
 #include "app/session/solve_shot.hpp"
 
 #include <algorithm>
+#include <thread>
 
 #include "app/session/frame_track.hpp"
 #include "app/support/progress.hpp"
+#include "catchlight/util/bounded_queue.hpp"
 
 namespace catchlight::app {
 namespace {
+
+constexpr std::size_t kWaitingFrames = 4;  ///< decoded, not tracked yet
 
 /// The range with a second more at its end, so that the last poses know what comes after them.
 FrameRange with_a_second_more(FrameRange range, const SourceInfo& info) {
@@ -23,23 +27,30 @@ std::optional<std::int64_t> frames_to_read(const SourceInfo& info, const FrameRa
   return std::min(*info.frame_count, range.end == FrameRange{}.end ? *info.frame_count : range.end - info.first_number);
 }
 
+std::optional<std::int64_t> frames_to_track(const SourceInfo& info, const FrameRange& range) {
+  return frames_to_read(info, with_a_second_more(range, info));
+}
+
 SolvedShot solve_shot(MediaSource& source, const CameraModel& camera, const SceneSettings& scene, const FrameRange& range,
                       Log& log, StageTimer& stages) {
   SolvedShot shot;
   ShotTrack track(camera, scene);
   const FrameRange read_range = with_a_second_more(range, source.info());
-  {
-    Progress progress(log, "track", frames_to_read(source.info(), read_range));
-    std::int64_t read = 0;
-    try {
-      while (const std::optional<Frame> frame = stages.measure("track decode", [&] { return source.read(); })) {
-        if (frame->number() >= read_range.end) break;
-        stages.measure("track", [&] { track.add(*frame); });
-        progress.update(++read);
-      }
-    } catch (const DamagedMedia& damaged) {
-      shot.damage = damaged.what();
-    }
+  Progress progress(log, "track", frames_to_track(source.info(), range));
+  const auto decode = [&]() -> std::optional<Frame> {
+    std::optional<Frame> frame = stages.measure("track decode", [&] { return source.read(); });
+    return frame && frame->number() < read_range.end ? std::move(frame) : std::nullopt;
+  };
+  try {
+    BoundedQueue<Frame> decoded(kWaitingFrames);
+    const std::jthread decoding([&] { fill(decoded, decode); });
+    std::int64_t tracked = 0;
+    drain(decoded, [&](const Frame& frame) {
+      stages.measure("track", [&] { track.add(frame); });
+      progress.update(++tracked);
+    });
+  } catch (const DamagedMedia& damaged) {
+    shot.damage = damaged.what();
   }
   shot.rows = stages.measure("solve", [&] { return track.solve(); });
   if (const auto warning = track.warning(shot.rows)) log.warn(*warning);

@@ -20,12 +20,14 @@ struct SolvedShot {
   std::optional<std::string> damage;  ///< a text on the damage that ended the footage early
 };
 
-/// Tracks from the source's first frame to a second after the range's end, so that poses hardly depend on the range. The stages
+/// Tracks from the source's first frame to a second after the range's end, so that poses hardly depend on the range. Frames are
+/// decoded on a thread of their own. The stages
 /// are "track decode", "track" (a frame each) and "solve" (once).
 SolvedShot solve_shot(MediaSource& source, const CameraModel& camera, const SceneSettings& scene, const FrameRange& range,
                       Log& log, StageTimer& stages);
 
-/// The frames from the source's first to the range's end, where that can be known.
+/// The frames from the source's first to the range's end, where that can be known; frames_to_track: those that solve_shot reads.
 std::optional<std::int64_t> frames_to_read(const SourceInfo& info, const FrameRange& range);
+std::optional<std::int64_t> frames_to_track(const SourceInfo& info, const FrameRange& range);
 
 }  // namespace catchlight::app

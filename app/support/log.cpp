@@ -22,16 +22,19 @@ bool use_color() {
 }  // namespace
 
 void Log::info(const std::string& message) {
+  const std::lock_guard lock(mutex_);
   if (!quiet_) print("", kNoColor, message);
 }
 
 void Log::warn(const std::string& message) {
+  const std::lock_guard lock(mutex_);
   if (warnings_.size() > kMaxWarnings || std::ranges::find(warnings_, message) != warnings_.end()) return;
   warnings_.push_back(warnings_.size() < kMaxWarnings ? message : "there are more warnings than are shown");
   if (!quiet_) print("catchlight: warning: ", kYellow, warnings_.back());
 }
 
 void Log::error(const std::string& message) {
+  const std::lock_guard lock(mutex_);
   print("catchlight: error: ", kRed, message);
 }
 

@@ -1,6 +1,7 @@
 // Messages to the user: always stderr, so that stdout stays free for data.
 #pragma once
 
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -8,7 +9,7 @@
 
 namespace catchlight::app {
 
-/// Colours only on a terminal and without NO_COLOR (https://no-color.org).
+/// Several threads may write at once. Colours only on a terminal and without NO_COLOR (https://no-color.org).
 class Log {
  public:
   static constexpr std::size_t kMaxWarnings = 200;
@@ -31,8 +32,10 @@ class Log {
 
  private:
   friend class Progress;
+  /// With the mutex held.
   void print(const char* label, const char* color, const std::string& message);
 
+  std::mutex mutex_;
   bool quiet_ = false;
   bool bar_shown_ = false;  ///< the cursor stands behind a progress bar
   std::vector<std::string> warnings_;

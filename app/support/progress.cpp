@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <mutex>
 #include <utility>
 
 namespace catchlight::app {
@@ -55,6 +56,7 @@ Progress::Progress(Log& log, std::string label, std::optional<std::int64_t> tota
       last_drawn_(start_ - kRedrawInterval) {}
 
 Progress::~Progress() {
+  const std::lock_guard lock(log_.mutex_);
   if (std::exchange(log_.bar_shown_, false)) std::fputc('\n', stderr);
 }
 
@@ -71,6 +73,7 @@ void Progress::draw_bar(std::int64_t done, double elapsed_s) {
   const bool is_last = total_ && done >= *total_;
   if (!is_last && Clock::now() - last_drawn_ < kRedrawInterval) return;
   last_drawn_ = Clock::now();
+  const std::lock_guard lock(log_.mutex_);
   std::fprintf(stderr, "\r%s\033[K", progress_text(label_, done, total_, unit_, elapsed_s).c_str());
   log_.bar_shown_ = true;
 }

@@ -6,7 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "app/session/session.hpp"
+#include "app/session/run_stages.hpp"
 #include "app/tools/replay/sheet.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/composite.hpp"
@@ -123,18 +123,10 @@ ReplayResult replay_recording(const std::string& location, const RecordingOverri
   recording.scene.lens.noise = Switch::off;
   Session session(std::move(recording), {.keeps_track = true}, log);
   TruthFrames truth(session.recording().folder);
-  session.prepare();
-  while (std::optional<FrameJob> job = session.decode()) {
-    session.track(*job);
-    if (!truth.has(job->image.number())) {
-      session.skip(*job);
-      continue;
-    }
-    session.render(*job);
-    truth.compare(job->image, job->result);
-  }
+  run_stages(session, [&](const FrameJob& job) { truth.compare(job.image, job.result); },
+             {.wants = [&](const FrameJob& job) { return truth.has(job.image.number()); }});
   if (session.damage()) throw Error(*session.damage());
-  warn_of_lost_frames(session.report(), log);
+  session.warn_of_track();
 
   ReplayResult result;
   result.name = session.recording().name;

@@ -1,0 +1,55 @@
+// Footage that is read a second time from its beginning.
+#pragma once
+
+#include <deque>
+#include <functional>
+
+#include "app/media/read/source.hpp"
+
+namespace catchlight::app {
+
+/// The most that a process should keep of decoded frames: 1 GiB, or a quarter of the machine's memory where that is less.
+std::int64_t kept_frames_budget();
+
+/// Between keep() and rewind() the frames that are read are kept, as long as they all fit the budget: then they are not decoded
+/// again. Otherwise the footage is opened anew.
+class RewindableSource final : public MediaSource {
+ public:
+  using Open = std::function<std::unique_ptr<MediaSource>()>;
+
+  /// `reopen`: opens the same footage.
+  RewindableSource(std::unique_ptr<MediaSource> source, Open reopen, std::int64_t budget_bytes = kept_frames_budget());
+
+  const SourceInfo& info() const override { return info_; }
+  std::optional<Frame> read() override;
+  const AVStream* video_stream() const override { return source_->video_stream(); }
+
+  /// `frame_count`: how many frames will be read until rewind(), where that is known. Where they will not fit, none is kept.
+  void keep(std::optional<std::int64_t> frame_count);
+
+  /// The next frame is the first that was read after keep(); damage that was met is met again.
+  void rewind();
+
+  /// What became of the frames between keep() and rewind().
+  struct Kept {
+    bool has_all = false;
+    std::int64_t bytes = 0;  ///< what was read, or will have been, until it was known not to fit
+    std::int64_t budget_bytes = 0;
+  };
+  const Kept& kept() const { return kept_; }
+
+ private:
+  void add(const Frame& frame);
+  void let_go();
+
+  std::unique_ptr<MediaSource> source_;
+  Open reopen_;
+  SourceInfo info_;
+  Kept kept_;
+  bool is_keeping_ = false;
+  std::optional<std::int64_t> frame_count_;
+  std::deque<Frame> frames_;
+  std::optional<std::string> damage_;
+};
+
+}  // namespace catchlight::app
