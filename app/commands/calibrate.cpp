@@ -1,7 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core.hpp>
 
 #include "app/commands/commands.hpp"
 #include "app/support/output_file.hpp"
@@ -10,6 +10,7 @@
 #include "catchlight/camera.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/util/text.hpp"
+#include "render/image/picture_file.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -105,8 +106,7 @@ std::vector<BoardView> measured_again(const CollectedViews& collected, Calibrati
 }
 
 void write_picture(const std::string& path, const Calibration& calibration, bool overwrite) {
-  std::vector<std::uint8_t> png;
-  cv::imencode(".png", calibration_picture(calibration), png);
+  const std::vector<std::uint8_t> png = render::encode_png(calibration_picture(calibration));
   write_text_file(path, {reinterpret_cast<const char*>(png.data()), png.size()}, overwrite);
 }
 

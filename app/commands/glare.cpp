@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core.hpp>
 
 #include "app/commands/commands.hpp"
 #include "app/support/output_file.hpp"
@@ -12,6 +12,7 @@
 #include "render/glare/aperture_picture.hpp"
 #include "render/glare/aperture_psf.hpp"
 #include "render/image/image_io.hpp"
+#include "render/image/picture_file.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -57,8 +58,7 @@ void write_picture(const Options& options, const render::AperturePicture& pictur
   for (int y = 0; y < aperture.height; ++y)
     for (int x = 0; x < aperture.width; ++x)
       *aperture.pixel(x, y) = *drawn.pixel(x * drawn.width / aperture.width, y * drawn.height / aperture.height);
-  std::vector<uchar> png;
-  cv::imencode(".png", side_by_side(aperture, logarithmic(psf, options.decades)), png);
+  const std::vector<std::uint8_t> png = render::encode_png(side_by_side(aperture, logarithmic(psf, options.decades)));
   write_text_file(options.output, {reinterpret_cast<const char*>(png.data()), png.size()}, options.overwrite);
 }
 

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <glm/gtc/constants.hpp>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core.hpp>
 #include <optional>
 
 #include "app/commands/probe.hpp"
@@ -16,6 +16,7 @@
 #include "catchlight/image.hpp"
 #include "catchlight/util/enum_names.hpp"
 #include "catchlight/util/text.hpp"
+#include "render/image/picture_file.hpp"
 #include "render/probe/probe_split.hpp"
 #include "render/render_scene.hpp"
 
@@ -180,8 +181,7 @@ cv::Mat png_pixels(const Image& linear_premultiplied, double ev) {
 }
 
 void write_png(const ProbeArguments& arguments, const cv::Mat& pixels) {
-  std::vector<std::uint8_t> png;
-  cv::imencode(".png", pixels, png);
+  const std::vector<std::uint8_t> png = render::encode_png(pixels);
   write_text_file(arguments.output, {reinterpret_cast<const char*>(png.data()), png.size()}, arguments.overwrite);
 }
 

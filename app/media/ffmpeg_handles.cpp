@@ -6,7 +6,6 @@
 #include <mutex>
 
 extern "C" {
-#include <libavdevice/avdevice.h>
 #include <libavutil/error.h>
 #include <libavutil/log.h>
 }
@@ -46,10 +45,7 @@ void keep_error_line(void*, int level, const char* format, va_list arguments) {
 
 void capture_ffmpeg_log() {
   static std::once_flag once;
-  std::call_once(once, [] {
-    av_log_set_callback(keep_error_line);
-    avdevice_register_all();
-  });
+  std::call_once(once, [] { av_log_set_callback(keep_error_line); });
 }
 
 std::string ffmpeg_reason(int code) {

@@ -7,7 +7,6 @@
 
 extern "C" {
 #include <libavcodec/avcodec.h>
-#include <libavfilter/avfilter.h>
 #include <libavformat/avformat.h>
 #include <libswscale/swscale.h>
 }
@@ -19,7 +18,6 @@ struct FfmpegDelete {
   void operator()(AVPacket* packet) const { av_packet_free(&packet); }
   void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }
   void operator()(AVFormatContext* input) const { avformat_close_input(&input); }
-  void operator()(AVFilterGraph* graph) const { avfilter_graph_free(&graph); }
   void operator()(SwsContext* scaler) const { sws_freeContext(scaler); }
 };
 
@@ -35,7 +33,6 @@ using PacketPtr = std::unique_ptr<AVPacket, FfmpegDelete>;
 using CodecPtr = std::unique_ptr<AVCodecContext, FfmpegDelete>;
 using InputPtr = std::unique_ptr<AVFormatContext, FfmpegDelete>;
 using OutputPtr = std::unique_ptr<AVFormatContext, OutputDelete>;
-using GraphPtr = std::unique_ptr<AVFilterGraph, FfmpegDelete>;
 using ScalerPtr = std::unique_ptr<SwsContext, FfmpegDelete>;
 
 /// Key and value pairs for FFmpeg's open functions; what they did not know is left in it.

@@ -2,11 +2,11 @@
 
 #include <cmath>
 #include <glm/gtc/constants.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "app/session/frame_view.hpp"
 #include "app/support/output_file.hpp"
 #include "catchlight/plate.hpp"
+#include "render/image/picture_file.hpp"
 #include "render/reference/path_tracer.hpp"
 
 namespace catchlight::app {
@@ -117,7 +117,7 @@ void write_reference_png(const std::string& path, const Image& exposed_linear, c
     }
   }
   PendingFile file = pending_output(path, overwrite);
-  if (!cv::imwrite(file.pending_path(), picture)) throw Error("cannot write " + path + "; is the disk full?");
+  render::write_png(file.pending_path(), picture);
   file.commit();
 }
 

@@ -7,12 +7,12 @@
 #include <limits>
 #include <memory>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "catchlight/error.hpp"
 #include "render/glare/aperture_shapes.hpp"
 #include "render/image/image_io.hpp"
+#include "render/image/picture_file.hpp"
 
 namespace catchlight::render {
 namespace {
@@ -31,15 +31,19 @@ int blades_of(const std::string& name) {
   return blades;
 }
 
-[[noreturn]] void refuse(const std::string& path, const std::string& why) {
-  throw Error(path + ": " + why + "; an aperture is \"circle\", \"blades:N\", \"eyelashes\", \"dust\" or a square picture, " +
+[[noreturn]] void refuse(const std::string& what) {
+  throw Error(what + "; an aperture is \"circle\", \"blades:N\", \"eyelashes\", \"dust\" or a square picture, " +
               "white where light passes");
 }
 
 Image read_colors(const std::string& path) {
   if (std::filesystem::path(path).extension() == ".exr") return read_exr(path);
-  cv::Mat codes = cv::imread(path, cv::IMREAD_COLOR | cv::IMREAD_ANYDEPTH);
-  if (codes.empty()) refuse(path, "not a picture that can be read");
+  cv::Mat codes;
+  try {
+    codes = read_picture(path, PictureDepth::stored);
+  } catch (const Error& error) {
+    refuse("not a picture that can be read: " + std::string(error.what()));
+  }
   cv::cvtColor(codes, codes, cv::COLOR_BGR2RGB);
   codes.convertTo(codes, CV_32F, codes.depth() == CV_8U ? 1.0 / 255 : codes.depth() == CV_16U ? 1.0 / 65535 : 1.0);
   Image image(codes.cols, codes.rows);
@@ -48,19 +52,19 @@ Image read_colors(const std::string& path) {
 }
 
 Image read_transmission(const std::string& path) {
-  if (!std::filesystem::is_regular_file(path)) refuse(path, "no such file");
+  if (!std::filesystem::is_regular_file(path)) refuse(path + ": no such file");
   const Image colors = read_colors(path);
   if (colors.width != colors.height)
-    refuse(path, "its " + std::to_string(colors.width) + " x " + std::to_string(colors.height) + " pixels are not square");
+    refuse(path + ": its " + std::to_string(colors.width) + " x " + std::to_string(colors.height) + " pixels are not square");
   Image result(colors.width, colors.height, 1);
   for (std::size_t i = 0; i < result.data.size(); ++i) {
     const float* rgb = &colors.data[i * static_cast<std::size_t>(colors.channels)];
     const float luminance = 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
-    if (!std::isfinite(luminance) || luminance < 0) refuse(path, "it has values that are negative, NaN or Inf");
+    if (!std::isfinite(luminance) || luminance < 0) refuse(path + ": it has values that are negative, NaN or Inf");
     result.data[i] = luminance;
   }
   const float most = *std::max_element(result.data.begin(), result.data.end());
-  if (most <= 0) refuse(path, "it is black all over, so that no light passes");
+  if (most <= 0) refuse(path + ": it is black all over, so that no light passes");
   for (float& value : result.data) value /= std::max(most, 1.0f);
   return result;
 }

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 
 #include "catchlight/color.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/image.hpp"
+#include "render/image/picture_file.hpp"
 #include "render/mesh/gltf.hpp"
 
 namespace catchlight::render::gltf {
@@ -52,12 +52,12 @@ Image decode(const Document& document, const tinygltf::Image& source) {
   const std::span<const unsigned char> bytes =
       source.bufferView >= 0 ? bytes_of(document, source.bufferView) : std::span(source.image);
   cv::Mat decoded;
-  if (!bytes.empty()) {
-    const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8U, const_cast<unsigned char*>(bytes.data()));
-    decoded = cv::imdecode(encoded, cv::IMREAD_COLOR);
+  try {
+    decoded = decode_picture(bytes, PictureDepth::eight_bits);
+  } catch (const Error& error) {
+    throw Error(document.path + ": the texture \"" + (source.uri.empty() ? source.name : source.uri) +
+                "\" cannot be decoded: it " + error.what());
   }
-  if (decoded.empty())
-    throw Error(document.path + ": the texture \"" + (source.uri.empty() ? source.name : source.uri) + "\" cannot be decoded");
   Image image(decoded.cols, decoded.rows);
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {

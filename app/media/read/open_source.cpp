@@ -2,6 +2,11 @@
 
 #include <filesystem>
 
+extern "C" {
+#include <libavdevice/avdevice.h>
+}
+
+#include "app/media/late_library.hpp"
 #include "app/media/read/sequence.hpp"
 #include "app/media/read/video_source.hpp"
 #include "catchlight/error.hpp"
@@ -45,9 +50,15 @@ SourceRequest live_request(const std::string& location, const std::string& input
   return request;
 }
 
+SourceRequest camera_request(const std::string& location) {
+  static const LateLibrary devices("libavdevice.so." AV_STRINGIFY(LIBAVDEVICE_VERSION_MAJOR));
+  devices.function<decltype(&avdevice_register_all)>("avdevice_register_all")();
+  return live_request(location, "v4l2");
+}
+
 SourceRequest request_of(const std::string& location, double sequence_fps) {
   if (location.find("://") != std::string::npos) return live_request(location, "");
-  if (location.starts_with("/dev/video")) return live_request(location, "v4l2");
+  if (location.starts_with("/dev/video")) return camera_request(location);
   const auto pattern = SequencePattern::parse(location);
   return pattern && !fs::exists(location) ? sequence_request(location, *pattern, sequence_fps) : file_request(location);
 }

@@ -5,12 +5,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <opencv2/imgcodecs.hpp>
 
-#include "app/tools/probe_merge/exif.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/util/text.hpp"
+#include "render/image/exif.hpp"
 #include "render/image/image_io.hpp"
+#include "render/image/picture_file.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -39,13 +39,14 @@ bool is_linear(const std::vector<std::uint8_t>& bytes) {
 }
 
 cv::Mat decoded(const std::string& path, const std::vector<std::uint8_t>& bytes) {
+  constexpr const char* kExpected = "; expected JPEG, PNG or TIFF with 8 or 16 bits, OpenEXR or Radiance HDR";
   cv::Mat codes;
   try {
-    codes = cv::imdecode(bytes, cv::IMREAD_COLOR | cv::IMREAD_ANYDEPTH);
-  } catch (const cv::Exception&) {  // said below
+    codes = render::decode_picture(bytes, render::PictureDepth::stored);
+  } catch (const Error& error) {
+    throw Error(path + ": cannot be read: it " + error.what() + kExpected);
   }
-  if (codes.empty() || (codes.depth() != CV_8U && codes.depth() != CV_16U))
-    throw Error(path + ": cannot be read; expected JPEG, PNG or TIFF with 8 or 16 bits, OpenEXR or Radiance HDR");
+  if (codes.depth() == CV_32F) throw Error(path + ": cannot be read: it has floats" + kExpected);
   return codes;
 }
 
@@ -67,7 +68,7 @@ void check_alike(const Bracket& bracket) {
 }
 
 double exposure_stated(const std::string& path, const std::vector<std::uint8_t>& bytes, bool is_single) {
-  const std::optional<double> stated = exposure_of(exposure_tags(bytes));
+  const std::optional<double> stated = render::exposure_of(render::exif_tags(bytes));
   if (!stated && !is_single)
     throw Error(path +
                 ": its file does not say how long it was exposed (no EXIF); give the times in seconds with --times, such as "

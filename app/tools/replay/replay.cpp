@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "app/session/run_stages.hpp"
@@ -12,6 +11,7 @@
 #include "catchlight/composite.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/plate.hpp"
+#include "render/image/picture_file.hpp"
 #include "tracking/track_file.hpp"
 
 namespace catchlight::app {
@@ -42,10 +42,11 @@ class TruthFrames {
 
   void compare(const Frame& plate, const Composite& composite) {
     const cv::Mat ours = bgr_of(composite.rect.empty() ? plate : plate.with_composite(composite)), plate_bgr = bgr_of(plate);
-    const cv::Mat truth = read(path("truth", plate.number()), cv::IMREAD_COLOR, ours.size());
+    const cv::Mat truth = read(path("truth", plate.number()), ours.size());
     const fs::path clean_path = path("plate_clean", plate.number());
-    const cv::Mat clean = fs::exists(clean_path) ? read(clean_path, cv::IMREAD_COLOR, ours.size()) : plate_bgr;
-    const cv::Mat mask = read(path("mask", plate.number()), cv::IMREAD_GRAYSCALE, ours.size());
+    const cv::Mat clean = fs::exists(clean_path) ? read(clean_path, ours.size()) : plate_bgr;
+    cv::Mat mask = read(path("mask", plate.number()), ours.size());
+    cv::cvtColor(mask, mask, cv::COLOR_BGR2GRAY);
     comparisons.push_back(compare_with_truth(ours, truth, plate_bgr, clean, mask));
     sheet_rows.push_back(sheet_row(plate_bgr, ours, truth));
   }
@@ -60,9 +61,9 @@ class TruthFrames {
     return fs::path(folder_) / kind / name;
   }
 
-  static cv::Mat read(const fs::path& path, int mode, const cv::Size& size) {
-    const cv::Mat image = cv::imread(path.string(), mode);
-    if (image.empty()) throw Error(path.string() + ": missing or not a picture; every frame of truth/ needs its mask/");
+  static cv::Mat read(const fs::path& path, const cv::Size& size) {
+    if (!fs::exists(path)) throw Error(path.string() + ": missing; every frame of truth/ needs its mask/");
+    cv::Mat image = render::read_picture(path.string(), render::PictureDepth::eight_bits);
     if (image.size() != size)
       throw Error(path.string() + ": is " + std::to_string(image.cols) + "x" + std::to_string(image.rows) + ", the footage is " +
                   std::to_string(size.width) + "x" + std::to_string(size.height));

@@ -1,9 +1,9 @@
 #include "app/tools/replay/sheet.hpp"
 
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core.hpp>
 
 #include "app/support/output_file.hpp"
-#include "catchlight/error.hpp"
+#include "render/image/picture_file.hpp"
 
 namespace catchlight::app {
 
@@ -20,7 +20,7 @@ void write_sheet(const std::string& path, const std::vector<cv::Mat>& rows) {
   PendingFile file = pending_output(path, true);
   cv::Mat sheet;
   cv::vconcat(rows, sheet);
-  if (!cv::imwrite(file.pending_path(), sheet)) throw Error("cannot write " + path + "; is the disk full?");
+  render::write_png(file.pending_path(), sheet);
   file.commit();
 }
 

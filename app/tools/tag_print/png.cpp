@@ -1,11 +1,11 @@
 #include <cmath>
 #include <cstdint>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "app/tools/tag_print/writers.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/util/text.hpp"
+#include "render/image/picture_file.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -63,8 +63,7 @@ std::string png_bytes(const Page& page, int pixels_per_m) {
     }
   for (const TextMm& text : page.texts) draw_text(image, text, pixels_per_mm);
 
-  std::vector<std::uint8_t> encoded;
-  cv::imencode(".png", image, encoded);
+  const std::vector<std::uint8_t> encoded = render::encode_png(image);
   std::string bytes(encoded.begin(), encoded.end());
   constexpr std::size_t kAfterHeader = 8 + 25;  // signature, IHDR
   return bytes.insert(kAfterHeader, phys_chunk(pixels_per_m));

@@ -48,6 +48,14 @@ TEST(Program, HelpNamesEveryCommand) {
     EXPECT_THAT(result.output, HasSubstr(command));
 }
 
+// OpenCV's image files alone bring GDAL and a hundred libraries more, and took the program four times as long to start.
+TEST(Program, StartsWithoutLibrariesThatFewRunsNeed) {
+  const CommandResult loaded = run_catchlight({"--version"}, {{"LD_TRACE_LOADED_OBJECTS", "1"}});
+  EXPECT_THAT(loaded.output, HasSubstr("libavcodec")) << "the loader lists what it loads";
+  for (const char* library : {"libopencv_imgcodecs", "libgdal", "libavfilter", "libavdevice"})
+    EXPECT_THAT(loaded.output, ::testing::Not(HasSubstr(library)));
+}
+
 TEST(Program, HelpOfACommandShowsItsOptions) {
   const CommandResult result = run_catchlight({"bake", "--help"});
   EXPECT_EQ(result.exit_code, 0);

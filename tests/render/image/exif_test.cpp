@@ -1,4 +1,4 @@
-#include "app/tools/probe_merge/exif.hpp"
+#include "render/image/exif.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace catchlight::app {
+namespace catchlight::render {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -63,7 +63,7 @@ Bytes png(const Bytes& block) {
 TEST(Exif, ReadsBothByteOrdersInEveryContainer) {
   for (const bool big_endian : {false, true})
     for (const Bytes& file : {tiff(big_endian), jpeg(tiff(big_endian)), png(tiff(big_endian))}) {
-      const ExposureTags tags = exposure_tags(file);
+      const ExifTags tags = exif_tags(file);
       EXPECT_DOUBLE_EQ(tags.time_s.value_or(0), 1.0 / 250);
       EXPECT_DOUBLE_EQ(tags.f_number.value_or(0), 8);
       EXPECT_DOUBLE_EQ(tags.iso.value_or(0), 200);
@@ -74,11 +74,11 @@ TEST(Exif, ReadsBothByteOrdersInEveryContainer) {
 TEST(Exif, TimeAloneIsAnExposureAndNothingIsNone) {
   EXPECT_DOUBLE_EQ(exposure_of({0.5, {}, {}}).value_or(0), 0.5);
   EXPECT_FALSE(exposure_of({{}, 8, 100}));
-  EXPECT_FALSE(exposure_of(exposure_tags({})));
+  EXPECT_FALSE(exposure_of(exif_tags({})));
 }
 
 TEST(Exif, ADenominatorOfZeroIsNoTime) {
-  EXPECT_FALSE(exposure_tags(tiff(false, 0)).time_s);
+  EXPECT_FALSE(exif_tags(tiff(false, 0)).time_s);
 }
 
 /// Each byte lost, and each byte changed to the values that lead furthest astray: nothing is read beyond the file (a sanitizer
@@ -86,15 +86,15 @@ TEST(Exif, ADenominatorOfZeroIsNoTime) {
 TEST(Exif, DamagedFilesAreNeverReadBeyondTheirEnd) {
   for (const Bytes& whole : {tiff(false), tiff(true), jpeg(tiff(true)), png(tiff(false))})
     for (std::size_t i = 0; i < whole.size(); ++i) {
-      exposure_tags(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(i)));
+      exif_tags(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(i)));
       for (const std::uint8_t value : {0x00, 0x7f, 0xff}) {
         Bytes changed = whole;
         changed[i] = value;
-        const auto exposure = exposure_of(exposure_tags(changed));
+        const auto exposure = exposure_of(exif_tags(changed));
         EXPECT_TRUE(!exposure || *exposure > 0);
       }
     }
 }
 
 }  // namespace
-}  // namespace catchlight::app
+}  // namespace catchlight::render

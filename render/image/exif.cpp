@@ -1,14 +1,14 @@
-#include "app/tools/probe_merge/exif.hpp"
+#include "render/image/exif.hpp"
 
 #include <cstring>
 #include <string_view>
 
-namespace catchlight::app {
+namespace catchlight::render {
 namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-enum : std::uint32_t { kExifPointer = 0x8769, kExposureTime = 0x829a, kFNumber = 0x829d, kIso = 0x8827 };
+enum : std::uint32_t { kOrientation = 0x0112, kExifPointer = 0x8769, kExposureTime = 0x829a, kFNumber = 0x829d, kIso = 0x8827 };
 enum : std::uint32_t { kShort = 3, kLong = 4, kRational = 5 };
 
 std::optional<std::uint32_t> number_at(Bytes bytes, std::size_t at, std::size_t size, bool big_endian) {
@@ -27,9 +27,11 @@ class Tiff {
  public:
   explicit Tiff(Bytes bytes) : bytes_(bytes), big_endian_(starts_with(bytes, "MM")) {}
 
-  ExposureTags exposure() const {
-    ExposureTags tags;
+  ExifTags tags() const {
+    ExifTags tags;
     const auto first = value(4, 4);
+    const auto orientation = first ? positive(*first, kOrientation) : std::nullopt;
+    if (orientation && *orientation <= 8) tags.orientation = static_cast<int>(*orientation);
     const auto entry = first ? find(*first, kExifPointer) : std::nullopt;
     const auto directory = entry ? value(*entry + 8, 4) : std::nullopt;
     if (!directory) return tags;
@@ -98,18 +100,18 @@ Bytes tiff_in_png(Bytes file) {
 
 }  // namespace
 
-ExposureTags exposure_tags(Bytes file) {
+ExifTags exif_tags(Bytes file) {
   Bytes tiff;
   if (starts_with(file, "\xff\xd8")) tiff = tiff_in_jpeg(file);
   if (starts_with(file, "\x89PNG")) tiff = tiff_in_png(file);
   if (starts_with(file, "II") || starts_with(file, "MM")) tiff = file;
-  return Tiff(tiff).exposure();
+  return Tiff(tiff).tags();
 }
 
-std::optional<double> exposure_of(const ExposureTags& tags) {
+std::optional<double> exposure_of(const ExifTags& tags) {
   if (!tags.time_s) return std::nullopt;
   const double f_number = tags.f_number.value_or(1);
   return *tags.time_s * tags.iso.value_or(100) / 100 / (f_number * f_number);
 }
 
-}  // namespace catchlight::app
+}  // namespace catchlight::render
