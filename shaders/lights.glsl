@@ -1,7 +1,7 @@
 // The lights split off the probe: samples that count as one direction each, with a map of the depths at which they first meet the object.
-layout(binding = TEXTURE_SHADOW_MAPS) uniform sampler2DArrayShadow shadow_maps;  // linear filter; a layer a sample
+#include "shading.h"
 
-const float kPi = 3.14159265;
+layout(binding = TEXTURE_SHADOW_MAPS) uniform sampler2DArrayShadow shadow_maps;  // linear filter; a layer a sample
 
 // Share of sample i's light that the object lets through to `position`: from 0 to 1 along the border of a texel.
 float unshadowed_share(int i, vec3 position) {
@@ -24,17 +24,4 @@ vec3 direct_irradiance_over_pi(vec3 position, vec3 n) {
   vec3 sum = vec3(0.0);
   for (int i = 0; i < light_samples.count.x; ++i) sum += irradiance_from(i, position, n);
   return sum / kPi;
-}
-
-// GGX with height-correlated Smith and Schlick's Fresnel, for light from a patch of the sky `spread` (root mean square radians along one
-// axis) wide. Half of its spread adds to the microfacets' slopes; alpha^2 + spread^2 is what lowers their distribution's peak, which has
-// no variance to be added to, by as much.
-vec3 glossy_brdf(vec3 n, vec3 to_viewer, vec3 to_light, float spread, float alpha, vec3 f0, float f90) {
-  vec3 h = normalize(to_viewer + to_light);
-  float n_h = max(dot(n, h), 0.0), n_v = max(dot(n, to_viewer), 1e-4), n_l = dot(n, to_light);
-  float a2 = alpha * alpha, wide2 = min(a2 + spread * spread, 1.0);
-  float d = n_h * n_h * (wide2 - 1.0) + 1.0;
-  float shadowing = n_l * sqrt(n_v * n_v * (1.0 - a2) + a2) + n_v * sqrt(n_l * n_l * (1.0 - a2) + a2);
-  vec3 fresnel = f0 + (f90 - f0) * pow(1.0 - max(dot(to_viewer, h), 0.0), 5.0);
-  return fresnel * (wide2 / (kPi * d * d) * 0.5 / shadowing);
 }

@@ -37,7 +37,8 @@ void main() {
   SurfaceMaterial m = materials[material_index];
   vec3 to_viewer = normalize(view.camera_in_tag_m.xyz - surface.position_tag_m);
   vec3 n = shading_normal(to_viewer);
-  vec4 factor = mirror_factor(m, surface.color, dot(n, to_viewer));
+  vec2 table = brdf_at(dot(n, to_viewer), m.emissive_roughness.a);
+  vec4 factor = mirror_factor(m, surface.color, table);
   vec3 reflected = vec3(0.0);
   float roughness = m.emissive_roughness.a;
   bool mirrors = m.base_color_metallic.a > 0.0 || m.dielectric.x > 0.0;
@@ -46,7 +47,7 @@ void main() {
 
   vec3 diffuse = surface.exit_radiance, albedo = diffuse_albedo(m, surface.color), f0 = mirror_f0(m, surface.color);
   float f90 = mirror_f90(m), alpha = roughness * roughness;
-  vec3 more = multiple_scattering(f0, dot(n, to_viewer), roughness);
+  vec3 more = multiple_scattering(f0, table);
   for (int i = 0; i < light_samples.count.x; ++i) {
     vec3 arriving = irradiance_from(i, surface.position_tag_m, n);
     if (arriving == vec3(0.0)) continue;
@@ -57,7 +58,7 @@ void main() {
   }
 
   // What the dielectric boundary mirrors does not reach the pigment below it.
-  vec3 emitted = emitted_radiance(m, surface.color);
+  vec3 emitted = emitted_radiance(m, surface.color, view.exposure.rgb);
   vec3 radiance = diffuse * factor.a + reflected + emitted;
 
   object_color = vec4(exposed(radiance), 1.0);

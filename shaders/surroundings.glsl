@@ -6,13 +6,6 @@ layout(binding = TEXTURE_PLATE_LIGHT) uniform sampler2D plate_light;  // whole f
 // Over the outer share of the frame the probe takes over from it.
 const float kFrameFade = 0.04;
 
-// Levels are even steps of roughness from a perfect mirror on. Before the first, mixing gives the lobe's variance, roughness^4: a mix
-// in proportion to roughness would put a halo around what a polished surface mirrors.
-float level_of(float roughness, int levels) {
-  float level = roughness * float(levels - 1);
-  return level < 1.0 ? level * level * level * level : level;
-}
-
 vec3 probe_radiance(vec3 direction_tag, float roughness, bool with_lights) {
   vec3 direction = mat3(view.light_from_tag) * direction_tag;
   if (with_lights) return textureLod(probe, direction, level_of(roughness, textureQueryLevels(probe))).rgb;

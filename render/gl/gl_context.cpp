@@ -4,6 +4,7 @@
 #include <epoxy/gl.h>
 
 #include <array>
+#include <filesystem>
 #include <utility>
 #include <vector>
 
@@ -125,6 +126,17 @@ std::unique_ptr<GlContext> try_display(EGLDisplay display, std::string& reason) 
   return owner;
 }
 
+/// Without a device that a card's driver makes, no driver can find a card.
+bool may_have_card() {
+  namespace fs = std::filesystem;
+  std::error_code missing;
+  for (const char* file : {"/dev/nvidiactl", "/dev/dxg", "/dev/mali0", "/dev/kgsl-3d0"})
+    if (fs::exists(file, missing)) return true;
+  for (const fs::directory_entry& entry : fs::directory_iterator("/dev/dri", missing))
+    if (entry.path().filename().string().starts_with("renderD")) return true;
+  return false;
+}
+
 std::string gl_string(GLenum name) {
   const auto* text = reinterpret_cast<const char*>(glGetString(name));
   return text ? text : "";
@@ -146,6 +158,20 @@ std::unique_ptr<GlContext> make_headless_context() {
   throw Error(
       "no OpenGL 4.5 core context without a window; install Mesa (libegl1, libgl1-mesa-dri) or a vendor's EGL driver. Tried:" +
       reasons);
+}
+
+std::unique_ptr<GlContext> make_hardware_context() {
+  if (!may_have_card()) return nullptr;
+  std::unique_ptr<GlContext> context;
+  try {
+    context = make_headless_context();
+  } catch (const Error&) {
+    return nullptr;  // a card without a driver
+  }
+  const std::string renderer = gl_info().renderer;
+  for (const char* rasteriser : {"llvmpipe", "softpipe", "swrast", "SwiftShader", "Software Rasterizer"})
+    if (renderer.find(rasteriser) != std::string::npos) return nullptr;
+  return context;
 }
 
 GlInfo gl_info() {

@@ -24,6 +24,9 @@ struct GlInfo {
 /// said. Installs a debug callback that turns high-severity messages into an Error at the next check_gl().
 std::unique_ptr<GlContext> make_headless_context();
 
+/// A context like that on a graphics card; null where there is no card that OpenGL 4.5 works on, or only a software rasteriser.
+std::unique_ptr<GlContext> make_hardware_context();
+
 /// What the current context says about itself.
 GlInfo gl_info();
 

@@ -30,11 +30,12 @@ std::string read_shader_file(const std::string& name, const std::string& folder)
   return text.str();
 }
 
-/// The file named on an `#include "name"` line, or empty.
+/// The file named on an `#include "name"` line, or empty. Names with folders stand in parts that only C++ compiles.
 std::string included_name(const std::string& line) {
   static const std::string keyword = "#include \"";
   if (!line.starts_with(keyword)) return {};
-  return line.substr(keyword.size(), line.find('"', keyword.size()) - keyword.size());
+  const std::string name = line.substr(keyword.size(), line.find('"', keyword.size()) - keyword.size());
+  return name.find('/') == std::string::npos ? name : std::string();
 }
 
 void append_file(ShaderText& result, const std::string& name, const std::string& folder) {

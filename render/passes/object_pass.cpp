@@ -7,6 +7,7 @@
 
 #include "render/passes/reflection_texture.hpp"
 #include "render/rays/skip_bvh.hpp"
+#include "render/surface_material.hpp"
 #include "shaders/interface.h"
 
 namespace catchlight::render {
@@ -66,17 +67,8 @@ void ObjectPass::upload_mesh(const Mesh& mesh) {
 }
 
 void ObjectPass::upload_materials(const Mesh& mesh) {
-  std::vector<shader_interface::SurfaceMaterial> materials;
-  for (const Material& material : mesh.materials) {
-    // Where nothing is mirrored face on, nothing is at grazing angles: f90 follows f0 below 2 % (Lagarde & de Rousiers 2014).
-    const float f90 = std::clamp(50.0f * material.dielectric_f0, 0.0f, 1.0f);
-    materials.push_back({{material.base_color, material.metallic},
-                         {material.emissive, material.roughness},
-                         {material.dielectric_f0, f90, 0, 0},
-                         {material.unlit_color, 0}});
-    emits_ = emits_ || material.emissive != glm::vec3(0);
-    reflects_ = reflects_ || material.metallic > 0 || material.dielectric_f0 > 0;
-  }
+  const auto [materials, emits, reflects] = surface_materials(mesh);
+  emits_ = emits, reflects_ = reflects;
   materials_ = make_buffer("materials", std::span<const shader_interface::SurfaceMaterial>(materials));
 }
 
