@@ -16,6 +16,8 @@ struct CameraModel {
   std::array<double, 8> distortion{};
   glm::dvec3 vignetting{0.0};  ///< v1, v2, v3 of vignetting_at()
 
+  bool operator==(const CameraModel&) const = default;
+
   bool has_distortion() const {
     return std::any_of(distortion.begin(), distortion.end(), [](double k) { return k != 0.0; });
   }

@@ -2,6 +2,7 @@
 // fall.
 #pragma once
 
+#include <cmath>
 #include <glm/glm.hpp>
 #include <span>
 
@@ -13,6 +14,12 @@ namespace catchlight::render {
 
 /// More than this is no shadow's bounce but a defect of the transfer.
 inline constexpr float kMaxShadowRatio = 4;
+
+/// Whether a shadow's ratio is so near to 1 that it moves no code by a quarter.
+inline bool is_no_shadow(const glm::vec3& ratio) {
+  constexpr float kInvisible = 5e-4f;
+  return std::abs(ratio.x - 1) < kInvisible && std::abs(ratio.y - 1) < kInvisible && std::abs(ratio.z - 1) < kInvisible;
+}
 
 /// Irradiance / pi of the plane where the object shadows nothing.
 struct OpenPlaneLight {

@@ -6,6 +6,7 @@
 #include "app/commands/commands.hpp"
 #include "app/settings/parameters.hpp"
 #include "catchlight/error.hpp"
+#include "catchlight/util/enum_names.hpp"
 #include "catchlight/util/text.hpp"
 
 namespace catchlight::app {
@@ -102,7 +103,13 @@ void add_recording_options(CLI::App& command, const Context& context, std::strin
   for (const std::string& key : numbered_keys(context.arguments)) add(key)->group("");
 }
 
-void add_shader_option(CLI::App& command, RecordingOverrides& overrides) {
+void add_renderer_options(CLI::App& command, RecordingOverrides& overrides) {
+  command
+      .add_option_function<std::string>(
+          "--renderer", [&overrides](const std::string& name) { overrides.renderer = value_named<Renderer>(name).value(); },
+          "What draws: the processor, OpenGL, or whichever is faster: OpenGL where there is a graphics card")
+      ->check(CLI::IsMember(name_list<Renderer>()))
+      ->default_str(name_of(Renderer::automatic));
   command
       .add_option("--shader-dir", overrides.shader_folder,
                   "Draw with the shaders of this folder, an edited copy of the source's shaders/, instead of the built-in ones")

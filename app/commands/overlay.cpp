@@ -69,7 +69,7 @@ void overlay(const Options& options, Context& context) {
 void set_up_overlay(CLI::App& command, Context& context) {
   const auto options = std::make_shared<Options>();
   add_recording_options(command, context, options->recording, options->overrides);
-  add_shader_option(command, options->overrides);
+  add_renderer_options(command, options->overrides);
   command
       .add_option("-o,--output", options->output,
                   "out.mp4, .mkv, .mov (H.264); .avi, .nut (FFV1); %04d.png; %04d.exr (layers); - (y4m on stdout)")

@@ -99,7 +99,7 @@ void replay(const Options& options, Context& context) {
 void set_up_replay(CLI::App& command, Context& context) {
   const auto options = std::make_shared<Options>();
   add_recording_options(command, context, options->location, options->overrides);
-  add_shader_option(command, options->overrides);
+  add_renderer_options(command, options->overrides);
   command.add_option("-o,--output", options->sheets, "folder for the sheets")->capture_default_str();
   command.add_flag("--bless", options->bless, "write what is measured to each recording's expected.toml");
   command.callback([options, &context] { replay(*options, context); });

@@ -108,8 +108,13 @@ void choose_scene(Recording& recording, const RecordingOverrides& overrides) {
   // A look that is an option goes before what the scene file sets, as options do.
   apply_look(recording.scene, options.contains("look") ? options : recording.scene.by_hand);
   recording.scene.probe.strict = overrides.strict;
-  if (!overrides.shader_folder.empty()) render::check_shader_folder(overrides.shader_folder);
+  if (!overrides.shader_folder.empty()) {
+    if (overrides.renderer == Renderer::cpu)
+      throw Error("--shader-dir has shaders for OpenGL, and --renderer cpu uses none; leave one of them out");
+    render::check_shader_folder(overrides.shader_folder);
+  }
   recording.scene.shader_folder = overrides.shader_folder;
+  recording.scene.renderer = overrides.renderer;
 }
 
 }  // namespace

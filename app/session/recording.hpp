@@ -17,8 +17,9 @@ namespace catchlight::app {
 /// What the command line says about a recording; it overrides what the files say.
 struct RecordingOverrides {
   std::optional<std::string> scene_file, camera_file;
-  std::optional<double> fov_deg;                                ///< horizontal, instead of a camera file
-  bool strict = false;                                          ///< refuse a probe with bad texels
+  std::optional<double> fov_deg;  ///< horizontal, instead of a camera file
+  bool strict = false;            ///< refuse a probe with bad texels
+  Renderer renderer = Renderer::automatic;
   std::string shader_folder;                                    ///< replaces the embedded shaders, where not empty
   std::vector<std::pair<std::string, std::string>> parameters;  ///< key and text, in the order given
 };

@@ -57,7 +57,7 @@ struct Report {
   std::int64_t glare_frames = 0;  ///< frames in which glare was drawn
   double glare_share = 0;         ///< share of the frame that glare reached in those, on average
   double fps = 0;        ///< frames a second of wall-clock time over all that was done: tracking, building, drawing, encoding
-  std::string renderer;  ///< GL_RENDERER
+  std::string renderer;  ///< GL_RENDERER, or "cpu"
   StageTimer stages;
   std::vector<PlanEntry> plan;
   std::vector<std::string> warnings;

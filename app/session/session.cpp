@@ -61,7 +61,7 @@ Session::Session(Recording recording, SessionOptions options, Log& log)
 
 void Session::prepare() {
   renderer_.load();
-  renderer_.open_gl();
+  renderer_.open_renderer();
   const bool is_drawn =
       opened_track().finds_any(options_.range) || (recodes_every_frame(recording_.scene) && !options_.wants_layers);
   if (is_drawn) measure("build", [&] { renderer_.prepare(); });
@@ -210,7 +210,7 @@ Report Session::report() const {
   Report report = pass_.report;
   const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - pass_.start).count();
   report.fps = elapsed_s > 0 ? static_cast<double>(report.frames) / elapsed_s : 0;
-  report.renderer = renderer_.gl_renderer();
+  report.renderer = renderer_.renderer_name();
   report.plan = plan();
   report.warnings = log_.warnings();
   return report;

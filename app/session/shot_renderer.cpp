@@ -5,6 +5,7 @@
 #include "app/settings/look.hpp"
 #include "app/settings/parameters.hpp"
 #include "app/support/progress.hpp"
+#include "render/cpu/cpu_compositor.hpp"
 #include "render/gl_compositor.hpp"
 
 namespace catchlight::app {
@@ -12,6 +13,13 @@ namespace {
 
 PlateReader reader(const Frame& frame) {
   return [&frame](const PixelRect& rect) { return frame.rgb(rect); };
+}
+
+/// The context to draw with; null where the processor is to draw.
+std::unique_ptr<render::GlContext> context_for(const SceneSettings& scene) {
+  if (scene.renderer == Renderer::cpu) return nullptr;
+  if (scene.renderer == Renderer::gl || !scene.shader_folder.empty()) return render::make_headless_context();
+  return render::make_hardware_context();
 }
 
 }  // namespace
@@ -53,10 +61,11 @@ const BuiltScene& ShotRenderer::load() {
   return builder_.scene();
 }
 
-void ShotRenderer::open_gl() {
+void ShotRenderer::open_renderer() {
   if (context_) return context_->make_current();
-  context_ = render::make_headless_context();
-  gl_renderer_ = render::gl_info().renderer;
+  if (!renderer_name_.empty()) return;
+  context_ = context_for(settings_);
+  renderer_name_ = context_ ? render::gl_info().renderer : "cpu";
 }
 
 void ShotRenderer::restart() {
@@ -64,13 +73,16 @@ void ShotRenderer::restart() {
 }
 
 void ShotRenderer::prepare() {
-  open_gl();
+  open_renderer();
   if (is_built_) return;
   const BuiltScene& built = builder_.build(settings_, log_.warning_handler(), progress_handler(log_, "bake"));
   const render::CompositorSettings wanted = compositor_settings(settings_);
   if (!compositor_ || drawn_version_ != built.version || drawn_settings_ != wanted) {
     compositor_.reset();
-    compositor_ = std::make_unique<render::GlCompositor>(built.scene, wanted);
+    if (context_)
+      compositor_ = std::make_unique<render::GlCompositor>(built.scene, wanted);
+    else
+      compositor_ = std::make_unique<render::CpuCompositor>(built.scene, wanted);
     drawn_version_ = built.version;
     drawn_settings_ = wanted;
   }

@@ -16,8 +16,8 @@
 
 namespace catchlight::app {
 
-/// Everything is made when it is first needed, and made anew where settings ask for it. Throws as the scene's
-/// files, a missing GL and the compositor do.
+/// Everything is made when it is first needed, and made anew where settings ask for it. Throws as the scene's files, a GL that is
+/// asked for and missing, and the compositor do.
 class ShotRenderer {
  public:
   /// `wants_layers`: frames get layers for compositing packages, which hold the scene's light and have no tone curve.
@@ -32,14 +32,14 @@ class ShotRenderer {
   /// Reads the scene's files, which view() needs. Quick, so that what is missing is found early.
   const BuiltScene& load();
 
-  /// Makes the GL context, or makes it current.
-  void open_gl();
+  /// Chooses what draws, if that is not done yet. Where that is OpenGL, makes the context, or makes it current.
+  void open_renderer();
 
   /// The footage starts again: the exposure has adapted to nothing yet.
   void restart();
 
-  /// Makes the GL context, the bake and the compositor: all that takes time before the first frame. Several renderers may live
-  /// side by side: each makes its context current before it draws.
+  /// Makes the GL context, if one is used, the bake and the compositor: all that takes time before the first frame. Several
+  /// renderers may live side by side: each makes its context current before it draws.
   void prepare();
 
   /// Sets job.view from job.image and job.track.
@@ -57,8 +57,8 @@ class ShotRenderer {
   const std::vector<PlanEntry>& plan() const { return builder_.scene().plan; }
   const SceneBuilder& builder() const { return builder_; }
 
-  /// GL_RENDERER; empty before prepare().
-  const std::string& gl_renderer() const { return gl_renderer_; }
+  /// What draws: GL_RENDERER, or "cpu"; empty before open_renderer().
+  const std::string& renderer_name() const { return renderer_name_; }
 
  private:
   bool adapts() const;
@@ -67,8 +67,8 @@ class ShotRenderer {
   CameraModel camera_;
   bool wants_layers_;
   Log& log_;
-  std::unique_ptr<render::GlContext> context_;  ///< outlives the compositor
-  std::string gl_renderer_;
+  std::unique_ptr<render::GlContext> context_;  ///< outlives the compositor; null where the processor draws
+  std::string renderer_name_;
   SceneBuilder builder_;
   bool is_loaded_ = false, is_built_ = false;  ///< with these settings
   int drawn_version_ = 0;

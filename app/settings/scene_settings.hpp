@@ -54,6 +54,12 @@ constexpr auto names_of(ExposureMode) {
   return std::array{"match", "fixed", "auto"};
 }
 
+/// What draws: `automatic` is the card's OpenGL where there is a card, else the processor.
+enum class Renderer { automatic, cpu, gl };
+constexpr auto names_of(Renderer) {
+  return std::array{"auto", "cpu", "gl"};
+}
+
 struct SceneSettings {
   render::Look look = render::Look::camera;
 
@@ -135,6 +141,7 @@ struct SceneSettings {
     int receiver_points = 96;
   } quality;
 
+  Renderer renderer = Renderer::automatic;  ///< the command line's --renderer, not a key of the file
   std::string folder;             ///< paths of files above that are relative start here; empty: the working folder
   std::string shader_folder;      ///< instead of the embedded shaders; the command line's --shader-dir, not a key of the file
   std::set<std::string> by_hand;  ///< keys that the scene file or the command line gave

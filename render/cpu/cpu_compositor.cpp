@@ -1,0 +1,215 @@
+#include "render/cpu/cpu_compositor.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "catchlight/error.hpp"
+#include "render/cpu/cpu_object.hpp"
+#include "render/cpu/glare/make_cpu_glare.hpp"
+#include "render/cpu/layer_blur.hpp"
+#include "render/cpu/object_layers.hpp"
+#include "render/cpu/pass_stopwatch.hpp"
+#include "render/cpu/plate_composite.hpp"
+#include "render/cpu/receiver_image.hpp"
+#include "render/cpu/tone/cpu_tone.hpp"
+#include "render/scene_check.hpp"
+#include "render/split_light.hpp"
+
+namespace catchlight::render {
+
+struct CpuCompositor::Impl {
+  Impl(const RenderScene& given, const CompositorSettings& wanted);
+
+  Composite render(const FrameView& view, const PlateReader& plate, bool want_layers, bool want_picture);
+  SceneNeeds needs() const;
+  void relight(const glm::dmat3& tag_from_light);
+  bool divides_glare() const;
+  void read_plate(const FrameView& view, const PlateReader& plate, const PixelRect& rect);
+  void make_images(const FramePlan& plan);
+  void draw_virtual_layer(const FrameView& view, const FramePlan& plan, Composite& result);
+  void blur(const FramePlan& plan);
+  void draw_composite(const FrameView& view, const FramePlan& plan, Composite& result);
+  void apply_tone(const FrameView& view, const FramePlan& plan, bool want_picture, Composite& result);
+
+  RenderScene scene;
+  CompositorSettings settings;
+  SplitLight light_probe;  ///< the scene's light in the probe's frame
+  Bounds bounds;
+  RayScene rays;
+  CpuObject object;
+  std::optional<ReceiverShadow> receiver;
+  std::unique_ptr<CpuGlare> glare;
+  std::optional<CpuTone> tone;         ///< none: neither a tone curve nor the classic look
+  std::optional<glm::dmat3> lit_from;  ///< the light's turn that all is lit for
+  PixelRays pixel_rays;
+  ResponseTable response;
+  Plate plate;
+  PlateLight plate_light;
+  ObjectImages images;
+  Image shadow;  ///< ratio, four channels
+  PixelRect shadow_drawn;
+  LayerBlur layer_blur;
+  PassStopwatch clock;
+};
+
+CpuCompositor::Impl::Impl(const RenderScene& given, const CompositorSettings& wanted)
+    : scene(checked(given)),
+      settings(wanted),
+      light_probe(split_light(scene)),
+      bounds(bounds_of(scene.mesh)),
+      rays(scene.mesh),
+      object(scene, rays, bounds, std::clamp(wanted.samples, 1, 16), wanted.reflection_rays) {
+  if (wanted.tone.enabled || wanted.look == Look::classic) tone.emplace(wanted);
+  if (wanted.look == Look::classic) settings.glare.enabled = false;  // the classic look has its own
+  if (settings.glare.enabled) glare = make_cpu_glare(settings.glare);
+  if (scene.transfer.grid.columns >= 2 && scene.transfer.grid.rows >= 2) receiver.emplace(scene.transfer, rays, bounds);
+}
+
+SceneNeeds CpuCompositor::Impl::needs() const {
+  SceneNeeds result;
+  result.object = bounds;
+  if (receiver) result.shadow_reach = receiver->reach();
+  result.mirrors = settings.reflection_rays > 0 && object.reflects();
+  result.has_glare = settings.glare.enabled;
+  result.recodes_frames = tone.has_value();
+  return result;
+}
+
+/// The light turns against the object only where the probe is fixed to the camera.
+void CpuCompositor::Impl::relight(const glm::dmat3& tag_from_light) {
+  const SplitLight light_tag = tag_from_light == glm::dmat3(1.0) ? light_probe : turned(light_probe, tag_from_light);
+  object.light_by(light_tag);
+  if (receiver) receiver->update(light_tag);
+  lit_from = tag_from_light;
+}
+
+/// What the object emits glares otherwise than what it reflects.
+bool CpuCompositor::Impl::divides_glare() const {
+  const GlareSettings& g = settings.glare;
+  return g.enabled && object.emits() &&
+         (g.emitter_strength != 1 || (g.emitter_directions != 0 && g.emitter_directions != g.streak_directions));
+}
+
+void CpuCompositor::Impl::read_plate(const FrameView& view, const PlateReader& reader, const PixelRect& rect) {
+  plate = reader(rect);
+  if (plate.rect != rect) throw Error("the plate reader gave another rectangle than it was asked for");
+  check_plate(plate);
+  response.set(view.color, plate.format);
+}
+
+void CpuCompositor::Impl::make_images(const FramePlan& plan) {
+  const int width = plan.virtual_rect.width, height = plan.virtual_rect.height;
+  const auto clear = [&](Image& image, int channels, bool is_wanted) {
+    image.width = width, image.height = height, image.channels = channels;
+    image.data.assign(is_wanted ? static_cast<std::size_t>(width) * height * channels : 0, 0.0f);
+  };
+  clear(images.color, 4, true);
+  clear(images.reflection, 3, plan.makes_layers);
+  clear(images.normal_depth, 5, plan.makes_layers);
+  clear(images.emission, 3, divides_glare());
+  shadow.width = width, shadow.height = height, shadow.channels = 4;
+  shadow.data.resize(static_cast<std::size_t>(width) * height * 4);
+}
+
+void CpuCompositor::Impl::blur(const FramePlan& plan) {
+  PixelRect covered = object.drawn();
+  covered.x -= plan.virtual_rect.x, covered.y -= plan.virtual_rect.y;
+  const glm::dvec2 corner(plan.virtual_rect.x, plan.virtual_rect.y);
+  const auto blur_one = [&](Image& image, PixelRect active, const MotionField& motion) {
+    if (plan.blur.variance_px2 > 0) {
+      layer_blur.defocus(image, active, plan.blur.variance_px2);
+      const int reach = static_cast<int>(discrete_gaussian(plan.blur.variance_px2).size());
+      active = {active.x - reach, active.y - reach, active.width + 2 * reach, active.height + 2 * reach};
+    }
+    if (plan.blur.moves) layer_blur.move(image, active, motion, corner);
+  };
+  if (!covered.empty()) blur_one(images.color, covered, plan.blur.object);
+  if (!shadow_drawn.empty()) blur_one(shadow, shadow_drawn, plan.blur.shadow);
+}
+
+/// Draws object and shadow, blurs them as the camera does, and looks for highlights that glare.
+void CpuCompositor::Impl::draw_virtual_layer(const FrameView& view, const FramePlan& plan, Composite& result) {
+  pixel_rays.set_camera(view.camera, plan.distortion_limit);
+  make_images(plan);
+  const bool mirrors_plate = plan.mirrors_receiver;
+  clock.pass("object", [&] {
+    object.draw(view, plan, pixel_rays, mirrors_plate ? &*receiver : nullptr, mirrors_plate ? &plate_light : nullptr, images);
+  });
+  clock.pass("receiver", [&] {
+    if (receiver)
+      shadow_drawn = draw_receiver(view, plan, pixel_rays, *receiver, shadow);
+    else
+      shadow_drawn = {}, std::ranges::fill(shadow.data, 1.0f);
+  });
+  if (!plan.blur.empty()) clock.pass("lens blur", [&] { blur(plan); });
+  if (plan.seeks_glare && glare)
+    clock.pass("highlights", [&] {
+      const Image* emission = divides_glare() ? &images.emission : nullptr;
+      result.glare_drawn = glare->extract(images.color, emission, plan.virtual_rect, plan.frame.width, plan.frame.height);
+    });
+}
+
+void CpuCompositor::Impl::draw_composite(const FrameView& view, const FramePlan& plan, Composite& result) {
+  VirtualImages images_in_frame{plan.virtual_rect};
+  if (plan.draws_virtual()) images_in_frame.object = &images.color, images_in_frame.shadow = &shadow;
+  images_in_frame.passed_at_tag = plan.passed_at_tag;
+  if (result.glare_drawn)
+    images_in_frame.glare = [this](int x, int y, int count, float* rgb) { glare->read_row(x, y, count, rgb); };
+  const Plate& whole = plan.mirrors_receiver ? plate_light.plate() : plate;
+  if (plan.makes_layers) result.layers = empty_layers(plan.frame);
+  composite_plate(view, whole, response, images_in_frame, plan.is_toned, result);
+}
+
+/// The whole frame, composited as linear light, becomes codes.
+void CpuCompositor::Impl::apply_tone(const FrameView& view, const FramePlan& plan, bool want_picture, Composite& result) {
+  Image light;
+  light.width = plan.frame.width, light.height = plan.frame.height, light.channels = 4;
+  light.data = std::move(result.rgba);
+  clock.pass("meter", [&] { result.tone_wanted = tone->meter(light, view.color); });
+  if (want_picture)
+    clock.pass("tone", [&] {
+      const bool codes_end_at_1 = plate.format != Plate::Format::rgb_f32;
+      tone->apply(light, view.color, view.tone.value_or(result.tone_wanted), codes_end_at_1);
+    });
+  result.rgba = std::move(light.data);
+}
+
+Composite CpuCompositor::Impl::render(const FrameView& view, const PlateReader& reader, bool want_layers, bool want_picture) {
+  check_view(view);
+  clock.begin_frame();
+  if (view.has_pose && lit_from != view.tag_from_light) clock.pass("light", [&] { relight(view.tag_from_light); });
+  const FramePlan plan = plan_frame(view, needs(), want_layers);
+  Composite result;
+  if (plan.empty()) return result;
+  if (plan.mirrors_receiver) {
+    clock.pass("plate", [&] { read_plate(view, reader, plan.frame); });
+    clock.pass("plate light", [&] { plate_light.set(std::move(plate), view, response); });
+  }
+  if (plan.draws_virtual()) draw_virtual_layer(view, plan, result);
+  if (result.glare_drawn) clock.pass("glare", [&] { result.glare_rect = glare->spread(view.camera); });
+  result.rect = plan.output_rect(result.glare_rect);
+  if (!plan.mirrors_receiver) clock.pass("plate", [&] { read_plate(view, reader, result.rect); });
+  clock.pass("composite", [&] { draw_composite(view, plan, result); });
+  if (plan.makes_layers) put_object_layers(images, plan.virtual_rect, *result.layers);
+  if (plan.is_toned) apply_tone(view, plan, want_picture, result);
+  return result;
+}
+
+CpuCompositor::CpuCompositor(const RenderScene& scene, const CompositorSettings& settings)
+    : impl_(std::make_unique<Impl>(scene, settings)) {}
+CpuCompositor::~CpuCompositor() = default;
+
+Composite CpuCompositor::render(const FrameView& view, const PlateReader& plate, bool want_layers) {
+  return impl_->render(view, plate, want_layers, true);
+}
+
+ToneCurve CpuCompositor::meter(const FrameView& view, const PlateReader& plate) {
+  return impl_->render(view, plate, false, false).tone_wanted;
+}
+
+const std::vector<PassTime>& CpuCompositor::pass_times() const {
+  return impl_->clock.times();
+}
+
+}  // namespace catchlight::render

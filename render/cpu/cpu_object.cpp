@@ -1,0 +1,118 @@
+#include "render/cpu/cpu_object.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "catchlight/util/parallel.hpp"
+#include "render/camera/clip_from_camera.hpp"
+#include "render/cpu/transferred_light.hpp"
+#include "shaders/shading.h"
+
+namespace catchlight::render {
+namespace {
+
+/// How far a smoothed surface may lie from its triangles, in shares of the object's diagonal.
+constexpr float kSkinShare = 0.01f;
+constexpr std::size_t kPointsAtOnce = 512;
+constexpr float kBrightest = 1e9f;
+
+/// Never NaN, infinite or negative (out of the plate's gamut): one such pixel would spread with the glare.
+glm::vec3 exposed(const FrameView& view, const glm::vec3& radiance) {
+  const glm::vec3 light = view.exposure * (view.color.plate_from_rec709 * radiance);
+  glm::vec3 result;
+  for (int c = 0; c < 3; ++c) result[c] = light[c] > 0 ? std::min(light[c], kBrightest) : 0;
+  return result;
+}
+
+void add(float* pixel, const glm::vec3& value, float coverage) {
+  for (int c = 0; c < 3; ++c) pixel[c] += coverage * value[c];
+}
+
+}  // namespace
+
+struct CpuObject::Shaded {
+  glm::vec3 radiance, reflected, emitted;
+};
+
+CpuObject::CpuObject(const RenderScene& scene, const RayScene& rays, const Bounds& bounds, int samples, int reflection_rays)
+    : scene_(scene),
+      bounds_(bounds),
+      materials_(surface_materials(scene.mesh)),
+      probe_(scene.reflections),
+      rest_(scene.rest_reflections),
+      around_(probe_, rest_, scene.probe_in_tag_m),
+      finder_(scene.mesh, rays, samples),
+      direct_(scene.mesh, rays, bounds),
+      mirror_rays_(scene.mesh, rays, materials_, brdf_, reflection_rays,
+                   bounds.empty() ? 0 : kSkinShare * bounds.rounded_diagonal_m()),
+      mirrored_(materials_, mirror_rays_, reflection_rays) {}
+
+void CpuObject::light_by(const SplitLight& light_tag) {
+  exit_radiance_ = transferred_light(scene_.transfer.object, scene_.transfer.object_direct, light_tag);
+  direct_.set_samples(light_tag.samples);
+  highlights_.set_samples(light_tag.samples);
+}
+
+CpuObject::Shaded CpuObject::shade(const SurfacePoint& point, const glm::vec3& mirrored, const glm::vec3& exposure) const {
+  std::array<float, kMaxLightSamples> shares;
+  const auto& m = materials_.materials[point.material];
+  const float roughness = m.emissive_roughness.w;
+  const bool mirrors = m.base_color_metallic.w > 0 || m.dielectric.x > 0;
+  const bool shines = mirrors && !direct_.samples().empty() && roughness >= shading::kMinHighlightRoughness;
+  const glm::vec2 table = brdf_.at(glm::dot(point.normal, point.to_viewer), roughness);
+  const glm::vec4 factor = shading::mirror_factor(m, point.color, table);
+  Shaded result{};
+  if (mirrors) result.reflected = glm::vec3(factor) * mirrored;
+  const glm::vec3 irradiance = direct_.irradiance(point, shines ? shares.data() : nullptr);
+  const glm::vec3 diffuse = point.exit_radiance + irradiance * shading::diffuse_albedo(m, point.color) / shading::kPi;
+  if (shines) {
+    const glm::vec3 f0 = shading::mirror_f0(m, point.color);
+    const GlossySurface surface{point.normal, point.to_viewer, roughness * roughness, f0, shading::mirror_f90(m)};
+    result.reflected += shading::multiple_scattering(f0, table) * highlights_.radiance(surface, shares.data());
+  }
+  // What the dielectric boundary mirrors does not reach the pigment below it.
+  result.emitted = shading::emitted_radiance(m, point.color, exposure);
+  result.radiance = diffuse * factor.w + result.reflected + result.emitted;
+  return result;
+}
+
+/// Shades the points into their pixels. A pixel's points are shaded one after the other, on one thread.
+void CpuObject::put(const FrameView& view, const FramePlan& plan, const VisibleSurface& surface,
+                    std::span<const glm::vec3> mirrored, ObjectImages& images) const {
+  const auto& [rect, points, firsts] = surface;
+  const glm::mat3 camera_from_tag(view.camera_from_tag.rotation);
+  parallel_for((firsts.size() + kPointsAtOnce - 1) / kPointsAtOnce, 0, [&](std::size_t chunk) {
+    for (std::size_t pixel = chunk * kPointsAtOnce; pixel < std::min((chunk + 1) * kPointsAtOnce, firsts.size()); ++pixel) {
+      if (firsts[pixel] < 0) continue;
+      const int x = static_cast<int>(pixel) % rect.width + rect.x - plan.virtual_rect.x;
+      const int y = static_cast<int>(pixel) / rect.width + rect.y - plan.virtual_rect.y;
+      for (auto i = static_cast<std::size_t>(firsts[pixel]); i < points.size() && points[i].pixel == pixel; ++i) {
+        const SurfacePoint& point = points[i];
+        const Shaded shaded = shade(point, mirrored[i], view.exposure);
+        add(images.color.pixel(x, y), exposed(view, shaded.radiance), point.coverage);
+        images.color.pixel(x, y)[3] += point.coverage;
+        if (!images.emission.data.empty()) add(images.emission.pixel(x, y), exposed(view, shaded.emitted), point.coverage);
+        if (images.reflection.data.empty()) continue;
+        add(images.reflection.pixel(x, y), exposed(view, shaded.reflected), point.coverage);
+        add(images.normal_depth.pixel(x, y), camera_from_tag * point.normal, point.coverage);
+        images.normal_depth.pixel(x, y)[3] += point.coverage * point.depth_m;
+        images.normal_depth.pixel(x, y)[4] += point.coverage;
+      }
+    }
+  });
+}
+
+void CpuObject::draw(const FrameView& view, const FramePlan& plan, const PixelRays& pixel_rays, const ReceiverShadow* shadow,
+                     const PlateLight* plate, ObjectImages& images) {
+  drawn_ = {};
+  if (bounds_.empty()) return;
+  drawn_ = intersect(visible_rect(view.camera, plan.distortion_limit, view.camera_from_tag, bounds_, kNear_m), plan.virtual_rect);
+  if (drawn_.empty()) return;
+  around_.set_view(view, plan.distortion_limit, shadow, plate);
+  mirror_rays_.set_frame(around_, {exit_radiance_, direct_.at_vertices_over_pi()}, view.exposure);
+  const VisibleSurface& surface = finder_.find(view, plan.distortion_limit, pixel_rays, drawn_, exit_radiance_);
+  direct_.prepare(surface.points);
+  put(view, plan, surface, mirrored_.find(surface, around_, !direct_.samples().empty()), images);
+}
+
+}  // namespace catchlight::render

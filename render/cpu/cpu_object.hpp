@@ -1,0 +1,69 @@
+// Draws the object on the processor: rays find what each pixel shows, and each piece of surface is shaded once.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "catchlight/image.hpp"
+#include "render/cpu/direct_light.hpp"
+#include "render/cpu/highlights.hpp"
+#include "render/cpu/mirrored_light.hpp"
+#include "render/cpu/plate_light.hpp"
+#include "render/cpu/receiver_shadow.hpp"
+#include "render/cpu/visible_surface.hpp"
+#include "render/frame_plan.hpp"
+#include "render/render_scene.hpp"
+
+namespace catchlight::render {
+
+/// What is drawn of the object, over a rectangle of the frame: premultiplied by coverage, exposed linear, in the plate's
+/// primaries.
+struct ObjectImages {
+  Image color;         ///< RGBA
+  Image reflection;    ///< RGB, the mirrored part of it; only with layers
+  Image normal_depth;  ///< camera frame, metres along z, coverage; only with layers
+  Image emission;      ///< RGB, what the materials emit; only where it glares otherwise than the rest
+};
+
+class CpuObject {
+ public:
+  /// Keeps references. `samples` of a pixel's outline, `reflection_rays` over a rough surface's lobe.
+  CpuObject(const RenderScene& scene, const RayScene& rays, const Bounds& bounds, int samples, int reflection_rays);
+
+  /// Takes over the light, in the tag frame; needed again when it turns.
+  void light_by(const SplitLight& light_tag);
+
+  bool reflects() const { return materials_.reflects; }
+  bool emits() const { return materials_.emits; }
+
+  /// Draws into images that are as large as the plan's rectangle. `shadow` and `plate`: what mirrors show of the receiver, or
+  /// null.
+  void draw(const FrameView& view, const FramePlan& plan, const PixelRays& pixel_rays, const ReceiverShadow* shadow,
+            const PlateLight* plate, ObjectImages& images);
+
+  /// The box around what the object covers of the last drawn rectangle: its pixels lie in the images' rectangle.
+  const PixelRect& drawn() const { return drawn_; }
+
+ private:
+  struct Shaded;
+
+  Shaded shade(const SurfacePoint& point, const glm::vec3& mirrored, const glm::vec3& exposure) const;
+  void put(const FrameView& view, const FramePlan& plan, const VisibleSurface& surface, std::span<const glm::vec3> mirrored,
+           ObjectImages& images) const;
+
+  const RenderScene& scene_;
+  Bounds bounds_;
+  SurfaceMaterials materials_;
+  BrdfTable brdf_;
+  CubeTexture probe_, rest_;
+  Surroundings around_;
+  SurfaceFinder finder_;
+  DirectLight direct_;
+  Highlights highlights_;
+  MirrorRays mirror_rays_;
+  MirroredLight mirrored_;
+  std::vector<glm::vec3> exit_radiance_;
+  PixelRect drawn_;
+};
+
+}  // namespace catchlight::render

@@ -1,0 +1,37 @@
+// A reflection map in memory, filtered as OpenGL's seamless cube maps are.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "render/cpu/float4.hpp"
+#include "render/probe/prefilter.hpp"
+
+namespace catchlight::render {
+
+class CubeTexture {
+ public:
+  /// Texels that are NaN, infinite or negative count as 0. A map without levels is black. Throws Error where a level's faces are
+  /// not square.
+  explicit CubeTexture(const ReflectionMap& map);
+
+  int levels() const { return static_cast<int>(levels_.size()); }
+
+  /// Linear within a level, over the edges of faces, and between levels; `level` is clamped to those there are. `direction` need
+  /// not have length 1.
+  glm::vec3 sample(const glm::vec3& direction, float level) const;
+
+ private:
+  struct Level {
+    int size = 0;                ///< texels along a face
+    std::vector<Float4> texels;  ///< faces with a border of one texel, which repeats the neighbours' outermost
+  };
+  struct Place;
+
+  static Level make_level(const Image& faces);
+  static Float4 bilinear(const Level& level, const Place& place);
+
+  std::vector<Level> levels_;
+};
+
+}  // namespace catchlight::render

@@ -1,0 +1,185 @@
+#include "render/cpu/direct_light.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <limits>
+
+#include "catchlight/util/parallel.hpp"
+
+namespace catchlight::render {
+namespace {
+
+/// Shares of the object's diagonal: how far above a surface its shadow is looked for, which smoothed normals need; how fine
+/// shadows are kept.
+constexpr float kLiftShare = 1.5f / 512, kLatticeShare = 1.0f / 384;
+constexpr std::uint16_t kMaxLatticeSteps = 96;
+constexpr std::size_t kVerticesAtOnce = 256;
+
+std::size_t lattice_nodes(std::size_t steps) {
+  return (steps + 1) * (steps + 2) / 2;
+}
+
+/// The node `across` steps towards corner 1 and `up` towards corner 2.
+std::size_t lattice_index(std::size_t steps, std::size_t across, std::size_t up) {
+  return up * (2 * steps + 3 - up) / 2 + across;
+}
+
+/// As many low bits as there are samples.
+std::array<std::uint64_t, 2> bits_of(std::size_t samples) {
+  std::array<std::uint64_t, 2> bits{};
+  for (std::size_t i = 0; i < samples; ++i) bits[i / 64] |= std::uint64_t{1} << (i % 64);
+  return bits;
+}
+
+glm::vec3 unit(const glm::vec3& v) {
+  return v / std::max(glm::length(v), 1e-20f);
+}
+
+}  // namespace
+
+DirectLight::DirectLight(const Mesh& mesh, const RayScene& rays, const Bounds& object)
+    : mesh_(mesh),
+      rays_(rays),
+      lift_m_(object.empty() ? 0 : kLiftShare * object.rounded_diagonal_m()),
+      lattice_step_m_(object.empty() ? 1 : kLatticeShare * object.rounded_diagonal_m()) {}
+
+void DirectLight::set_samples(std::span<const LightSample> samples_tag) {
+  samples_.assign(samples_tag.begin(), samples_tag.end());
+  at_vertices_over_pi_.clear();
+  if (samples_.empty()) return;
+  find_vertices();
+  plan_lattices();
+}
+
+/// `seen` is known; of the samples in `unknown` it is found by rays.
+DirectLightNode DirectLight::node_at(const glm::vec3& position_m, const glm::vec3& normal, const Bits& seen,
+                                     const Bits& unknown) const {
+  thread_local RayStream rays;
+  thread_local std::vector<std::size_t> asked;
+  asked.clear();
+  DirectLightNode node{seen, glm::mat3(0)};
+  for (std::size_t word = 0; word < 2; ++word)
+    for (std::uint64_t bits = unknown[word]; bits != 0; bits &= bits - 1) {
+      const std::size_t sample = 64 * word + static_cast<std::size_t>(std::countr_zero(bits));
+      if (glm::dot(normal, glm::vec3(samples_[sample].direction)) > 0) asked.push_back(sample);
+    }
+  rays.resize(asked.size());
+  for (std::size_t i = 0; i < asked.size(); ++i)
+    rays.set(i, position_m + lift_m_ * normal, glm::vec3(samples_[asked[i]].direction), 0,
+             std::numeric_limits<float>::infinity());
+  if (!asked.empty()) rays_.find_occluded(rays, Coherence::coherent);
+  for (std::size_t i = 0; i < asked.size(); ++i)
+    if (!(rays.far[i] < 0)) node.seen[asked[i] / 64] |= std::uint64_t{1} << (asked[i] % 64);
+  for (std::size_t i = 0; i < samples_.size(); ++i)
+    if (node.sees(i)) node.flux += glm::outerProduct(glm::vec3(samples_[i].direction), glm::vec3(samples_[i].irradiance));
+  return node;
+}
+
+void DirectLight::find_vertices() {
+  vertices_.resize(mesh_.vertices.size());
+  at_vertices_over_pi_.resize(mesh_.vertices.size());
+  const Bits none{}, all = bits_of(samples_.size());
+  const std::size_t chunks = (vertices_.size() + kVerticesAtOnce - 1) / kVerticesAtOnce;
+  parallel_for(chunks, 0, [&](std::size_t chunk) {
+    const std::size_t first = chunk * kVerticesAtOnce, last = std::min(first + kVerticesAtOnce, vertices_.size());
+    for (std::size_t v = first; v < last; ++v) {
+      const glm::vec3 normal = unit(mesh_.vertices[v].normal);
+      vertices_[v] = node_at(mesh_.vertices[v].position_m, normal, none, all);
+      at_vertices_over_pi_[v] = glm::max(normal * vertices_[v].flux, 0.0f) / glm::pi<float>();
+    }
+  });
+}
+
+/// A lattice for each triangle whose corners see different samples.
+void DirectLight::plan_lattices() {
+  lattice_nodes_.clear();
+  lattices_.assign(mesh_.indices.size() / 3, {});
+  for (std::size_t t = 0; t < lattices_.size(); ++t) {
+    const std::uint32_t* corner = &mesh_.indices[3 * t];
+    const auto& seen = vertices_[corner[0]].seen;
+    if (seen == vertices_[corner[1]].seen && seen == vertices_[corner[2]].seen) continue;
+    const auto place = [&](int k) { return mesh_.vertices[corner[k]].position_m; };
+    const float longest_m =
+        std::max({glm::distance(place(0), place(1)), glm::distance(place(1), place(2)), glm::distance(place(2), place(0))});
+    const float steps = std::ceil(longest_m / lattice_step_m_);
+    if (steps > 1) lattices_[t].steps = static_cast<std::uint16_t>(std::min(steps, float{kMaxLatticeSteps}));
+  }
+}
+
+/// Only of the samples that the corners do not agree on it is asked which are seen.
+void DirectLight::fill_lattice(std::uint32_t triangle) {
+  const Lattice& lattice = lattices_[triangle];
+  const std::uint32_t* corner = &mesh_.indices[3 * static_cast<std::size_t>(triangle)];
+  Bits seen, unknown;
+  for (std::size_t word = 0; word < 2; ++word) {
+    const std::uint64_t a = vertices_[corner[0]].seen[word], b = vertices_[corner[1]].seen[word],
+                        c = vertices_[corner[2]].seen[word];
+    seen[word] = a & b & c;
+    unknown[word] = (a | b | c) & ~seen[word];
+  }
+  const Vertex &a = mesh_.vertices[corner[0]], &b = mesh_.vertices[corner[1]], &c = mesh_.vertices[corner[2]];
+  const std::size_t steps = lattice.steps;
+  for (std::size_t up = 0; up <= steps; ++up) {
+    for (std::size_t across = 0; across + up <= steps; ++across) {
+      const glm::vec2 share = glm::vec2(across, up) / static_cast<float>(steps);
+      const glm::vec3 w(1 - share.x - share.y, share);
+      lattice_nodes_[lattice.first_node + lattice_index(steps, across, up)] =
+          node_at(w.x * a.position_m + w.y * b.position_m + w.z * c.position_m,
+                  unit(w.x * a.normal + w.y * b.normal + w.z * c.normal), seen, unknown);
+    }
+  }
+}
+
+void DirectLight::prepare(std::span<const SurfacePoint> points) {
+  if (samples_.empty()) return;
+  std::vector<std::uint32_t> wanted;
+  std::size_t nodes = lattice_nodes_.size();
+  for (const SurfacePoint& point : points) {
+    Lattice& lattice = lattices_[point.triangle];
+    if (lattice.steps == 0 || lattice.is_made) continue;
+    lattice.is_made = true;
+    lattice.first_node = static_cast<std::uint32_t>(nodes);
+    nodes += lattice_nodes(lattice.steps);
+    wanted.push_back(point.triangle);
+  }
+  lattice_nodes_.resize(nodes);
+  parallel_for(wanted.size(), 0, [&](std::size_t i) { fill_lattice(wanted[i]); });
+}
+
+DirectLight::Corners DirectLight::corners_at(const SurfacePoint& point) const {
+  const Lattice& lattice = lattices_[point.triangle];
+  const glm::vec2& w = point.weights;
+  if (lattice.steps == 0) {
+    const std::uint32_t* corner = &mesh_.indices[3 * static_cast<std::size_t>(point.triangle)];
+    return {{&vertices_[corner[0]], &vertices_[corner[1]], &vertices_[corner[2]]}, {1 - w.x - w.y, w.x, w.y}};
+  }
+  const auto steps = static_cast<std::size_t>(lattice.steps);
+  const glm::vec2 place = glm::clamp(w, 0.0f, 1.0f) * static_cast<float>(steps);
+  std::size_t across = std::min(static_cast<std::size_t>(place.x), steps - 1);
+  const std::size_t up = std::min(static_cast<std::size_t>(place.y), steps - 1);
+  if (across + up > steps - 1) across = steps - 1 - up;
+  const glm::vec2 f = place - glm::vec2(across, up);
+  const DirectLightNode* first = &lattice_nodes_[lattice.first_node];
+  const auto node = [&](std::size_t x, std::size_t y) { return first + lattice_index(steps, x, y); };
+  if (f.x + f.y <= 1 || across + up + 2 > steps)
+    return {{node(across, up), node(across + 1, up), node(across, up + 1)}, {1 - f.x - f.y, f.x, f.y}};
+  return {{node(across + 1, up + 1), node(across, up + 1), node(across + 1, up)}, {f.x + f.y - 1, 1 - f.x, 1 - f.y}};
+}
+
+glm::vec3 DirectLight::irradiance(const SurfacePoint& point, float* shares) const {
+  if (samples_.empty()) return glm::vec3(0);
+  if (point.is_back) {  // what is kept is for the front
+    const DirectLightNode node = node_at(point.position_m, point.normal, {}, bits_of(samples_.size()));
+    for (std::size_t i = 0; shares && i < samples_.size(); ++i) shares[i] = node.sees(i) ? 1 : 0;
+    return glm::max(point.normal * node.flux, 0.0f);
+  }
+  const auto [nodes, w] = corners_at(point);
+  const glm::mat3 flux = w.x * nodes[0]->flux + w.y * nodes[1]->flux + w.z * nodes[2]->flux;
+  for (std::size_t i = 0; shares && i < samples_.size(); ++i)
+    shares[i] = (nodes[0]->sees(i) ? w.x : 0) + (nodes[1]->sees(i) ? w.y : 0) + (nodes[2]->sees(i) ? w.z : 0);
+  return glm::max(point.normal * flux, 0.0f);
+}
+
+}  // namespace catchlight::render
