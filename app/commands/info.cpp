@@ -10,8 +10,8 @@
 
 #include "app/commands/commands.hpp"
 #include "catchlight/error.hpp"
+#include "render/cache/content_cache.hpp"
 #include "render/gl/gl_context.hpp"
-#include "render/transfer/transfer.hpp"
 #include "tracking/detection/families.hpp"
 
 extern "C" {

@@ -8,9 +8,8 @@
 
 #include "catchlight/util/enum_names.hpp"
 #include "catchlight/util/text.hpp"
+#include "render/cache/content_cache.hpp"
 #include "render/math/sh.hpp"
-#include "render/probe/prefilter.hpp"
-#include "render/probe/probe_split.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -100,13 +99,15 @@ glm::dvec3 irradiance_over_pi(const BuiltScene& built, const glm::dmat3& tag_fro
 }
 
 /// The surface around the tag as the probe saw it. A probe that turns with the camera shows another one in most frames.
-render::ReceiverAlbedo choose_receiver_albedo(const BuiltScene& built, const glm::dvec3& given, std::vector<PlanEntry>& plan) {
+render::ReceiverAlbedo choose_receiver_albedo(const BuiltScene& built, const std::string& probe_key, const glm::dvec3& given,
+                                              const WarningHandler& warn, std::vector<PlanEntry>& plan) {
   if (built.orientation.follows_camera) {
     plan.push_back({"receiver albedo", "constant", "the probe shows another surface"});
     return render::constant_albedo(given);
   }
   const glm::dmat3 tag_from_probe = built.orientation.fixed_from_light * built.orientation.light_from_probe;
-  if (const auto seen = render::albedo_from_probe(built.probe, tag_from_probe, built.scene.probe_in_tag_m)) {
+  if (const auto seen = render::load_or_find_albedo(built.probe, probe_key, tag_from_probe, built.scene.probe_in_tag_m,
+                                                    render::ContentCache(""), warn)) {
     plan.push_back({"receiver albedo", "seen", "the probe shows the receiver"});
     return *seen;
   }
@@ -137,7 +138,10 @@ void SceneBuilder::renew(ScenePart name, const std::string& key, const Make& mak
 
 void SceneBuilder::load_parts(const SceneSettings& settings, const WarningHandler& warn) {
   built_.plan.clear();
-  renew(ScenePart::probe, probe_key(settings), [&](auto&) { built_.probe = load_scene_probe(settings, warn); });
+  renew(ScenePart::probe, probe_key(settings), [&](auto&) {
+    built_.probe = load_scene_probe(settings, warn);
+    probe_content_ = render::content_key(built_.probe);
+  });
   renew(ScenePart::mesh, mesh_key(settings), [&](auto&) {
     built_.scene.mesh = load_objects(settings, warn);
     built_.scene.probe_in_tag_m = glm::vec3(probe_in_tag_m(built_.scene.mesh));
@@ -162,12 +166,20 @@ void SceneBuilder::bake(const SceneSettings& settings, const WarningHandler& war
     const std::string key =
         probe_key(settings) + mesh_key(settings) + (built_.orientation.follows_camera ? " camera " : " tag ") +
         frame_key(built_.orientation.fixed_from_light * built_.orientation.light_from_probe) + text_of(settings.receiver.albedo);
-    renew(ScenePart::receiver_albedo, key,
-          [&](auto& plan) { receiver_albedo_ = choose_receiver_albedo(built_, settings.receiver.albedo, plan); });
+    renew(ScenePart::receiver_albedo, key, [&](auto& plan) {
+      receiver_albedo_ = choose_receiver_albedo(built_, probe_content_, settings.receiver.albedo, warn, plan);
+    });
     options.receiver_albedo = receiver_albedo_;
   }
-  built_.transfer_key = render::transfer_key(mesh, grid, options);
-  renew(ScenePart::transfer, built_.transfer_key, [&](auto&) {
+  // The mesh itself is hashed only where it is a new one, for it may be large; the grid follows from it.
+  render::ContentHash albedo;
+  albedo.add(options.receiver_albedo.seen_from_m);
+  albedo.add(options.receiver_albedo.image.data);
+  const std::string key = std::to_string(times_made(ScenePart::mesh)) + ' ' + albedo.text() + ' ' + std::to_string(grid.columns) +
+                          ' ' + std::to_string(grid.rows) + ' ' + std::to_string(options.bands) + ' ' +
+                          std::to_string(options.rays) + ' ' + std::to_string(options.bounces);
+  renew(ScenePart::transfer, key, [&](auto&) {
+    built_.transfer_key = render::transfer_key(mesh, grid, options);
     built_.scene.transfer = render::load_or_bake_transfer(mesh, grid, options, render::default_cache_folder(), progress, warn,
                                                           &built_.transfer_was_cached);
   });
@@ -177,37 +189,33 @@ void SceneBuilder::bake(const SceneSettings& settings, const WarningHandler& war
                          has_receiver ? "the object's reach on the tag's plane" : "receiver.plane is \"none\""});
 }
 
-void SceneBuilder::light(const SceneSettings& settings) {
+void SceneBuilder::light(const SceneSettings& settings, const WarningHandler& warn) {
+  const render::ContentCache cache("");
   const glm::dmat3& light_from_probe = built_.orientation.light_from_probe;
   const std::string key = probe_key(settings) + frame_key(light_from_probe);
   renew(ScenePart::reflections, key,
-        [&](auto&) { reflections_ = render::prefilter_reflections(built_.probe, light_from_probe); });
-  const int bands = built_.scene.transfer.bands;
-  const std::string split_key = key + number_text(bands) + ' ' + number_text(settings.quality.tolerance) + ' ' +
-                                number_text(settings.quality.light_samples) + origin_of(settings, "quality.light_samples");
+        [&](auto&) { reflections_ = render::load_or_prefilter(built_.probe, probe_content_, light_from_probe, cache, warn); });
+  const render::SplitOptions options{built_.scene.transfer.bands, settings.quality.tolerance, settings.quality.light_samples};
+  const std::string split_key = key + number_text(options.bands) + ' ' + number_text(options.tolerance) + ' ' +
+                                number_text(options.max_samples) + origin_of(settings, "quality.light_samples");
   renew(ScenePart::lights, split_key, [&](std::vector<PlanEntry>& plan) {
-    harmonics_ = render::rotate_sh(render::project_to_sh(built_.probe, bands), light_from_probe);
-    const render::SplitProbe split =
-        render::split_lights(built_.probe, {bands, settings.quality.tolerance, settings.quality.light_samples});
-    samples_ = render::samples_of(split, light_from_probe);
-    rest_reflections_ = {};
-    if (!samples_.empty()) rest_reflections_ = render::prefilter_reflections(split.mirrored, light_from_probe);
-    const std::string why = split.lights.empty() ? "nothing in the probe throws a shadow that its bands cannot hold"
-                                                 : "far brighter than the rest, and sharper than its bands";
-    plan.push_back({"lights", std::to_string(split.lights.size()), settings.quality.light_samples > 0 ? why : "set by hand"});
-    plan.push_back({"light samples", std::to_string(samples_.size()), origin_of(settings, "quality.light_samples")});
+    lights_ = render::load_or_split(built_.probe, probe_content_, light_from_probe, options, cache, warn);
+    const std::string why = lights_.lights == 0 ? "nothing in the probe throws a shadow that its bands cannot hold"
+                                                : "far brighter than the rest, and sharper than its bands";
+    plan.push_back({"lights", std::to_string(lights_.lights), options.max_samples > 0 ? why : "set by hand"});
+    plan.push_back({"light samples", std::to_string(lights_.samples.size()), origin_of(settings, "quality.light_samples")});
   });
 }
 
 /// Light is linear: a brighter probe is the same light times a number.
 void SceneBuilder::scale_light() {
   render::RenderScene& scene = built_.scene;
-  scene.light = harmonics_;
+  scene.light = lights_.harmonics;
   for (glm::vec3& coefficient : scene.light) coefficient *= static_cast<float>(built_.light_gain);
-  scene.lights = samples_;
+  scene.lights = lights_.samples;
   for (render::LightSample& sample : scene.lights) sample.irradiance *= built_.light_gain;
   scene.reflections = scaled(reflections_, static_cast<float>(built_.light_gain));
-  scene.rest_reflections = scaled(rest_reflections_, static_cast<float>(built_.light_gain));
+  scene.rest_reflections = scaled(lights_.rest_reflections, static_cast<float>(built_.light_gain));
 }
 
 const BuiltScene& SceneBuilder::load(const SceneSettings& settings, const WarningHandler& warn) {
@@ -219,7 +227,7 @@ const BuiltScene& SceneBuilder::build(const SceneSettings& settings, const Warni
                                       const ProgressHandler& progress) {
   load_parts(settings, warn);
   bake(settings, warn, progress);
-  light(settings);
+  light(settings, warn);
   std::string drawn = number_text(built_.light_gain);
   for (const ScenePart part : {ScenePart::mesh, ScenePart::transfer, ScenePart::reflections, ScenePart::lights})
     drawn += ' ' + std::to_string(times_made(part));

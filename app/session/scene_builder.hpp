@@ -15,6 +15,7 @@
 #include "catchlight/error.hpp"
 #include "catchlight/progress.hpp"
 #include "catchlight/rigid_transform.hpp"
+#include "render/probe/probe_lights.hpp"
 #include "render/render_scene.hpp"
 
 namespace catchlight::app {
@@ -68,16 +69,16 @@ class SceneBuilder {
 
   void load_parts(const SceneSettings& settings, const WarningHandler& warn);
   void bake(const SceneSettings& settings, const WarningHandler& warn, const ProgressHandler& progress);
-  void light(const SceneSettings& settings);
+  void light(const SceneSettings& settings, const WarningHandler& warn);
   void scale_light();
 
   BuiltScene built_;
   std::array<Part, kSceneParts> parts_;
+  std::string probe_content_;  ///< render::content_key of the probe
   render::ReceiverAlbedo receiver_albedo_;
   // The light as the probe's file has it, before probe.ev.
-  render::ShRgb harmonics_;
-  std::vector<render::LightSample> samples_;
-  render::ReflectionMap reflections_, rest_reflections_;
+  render::ReflectionMap reflections_;
+  render::ProbeLights lights_;
   std::string drawn_;  ///< the making of `scene` as it is: how often each part in it had been made, and the gain
 };
 

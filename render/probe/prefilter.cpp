@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace catchlight::render {
 namespace {
@@ -86,16 +87,21 @@ double smith_visibility(double n_l, double n_v, double alpha) {
   return 0.5 / (n_l * std::sqrt(n_v * n_v * (1 - a2) + a2) + n_v * std::sqrt(n_l * n_l * (1 - a2) + a2));
 }
 
-glm::dvec2 integrated_brdf(double n_v, double roughness) {
-  const double alpha = roughness * roughness;
+// Half vectors of a roughness: the same for all directions of view.
+std::vector<glm::dvec3> ggx_half_vectors(double alpha) {
+  std::vector<glm::dvec3> halves(kBrdfSamples);
+  for (std::uint32_t k = 0; k < kBrdfSamples; ++k) halves[k] = ggx_half_vector(scrambled_sobol(k, 2), alpha);
+  return halves;
+}
+
+glm::dvec2 integrated_brdf(double n_v, double alpha, const std::vector<glm::dvec3>& halves) {
   const glm::dvec3 view(std::sqrt(1 - n_v * n_v), 0, n_v);
   glm::dvec2 sum(0);
-  for (std::uint32_t k = 0; k < kBrdfSamples; ++k) {
-    const glm::dvec3 half = ggx_half_vector(scrambled_sobol(k, 2), alpha);
+  for (const glm::dvec3& half : halves) {
     const double v_h = std::max(glm::dot(view, half), 1e-9), n_l = 2 * v_h * half.z - view.z;
     if (n_l <= 0) continue;
     const double value = smith_visibility(n_l, n_v, alpha) * 4 * n_l * v_h / half.z;
-    const double fresnel = std::pow(1 - v_h, 5);
+    const double past = 1 - v_h, fresnel = past * past * past * past * past;
     sum += value * glm::dvec2(1 - fresnel, fresnel);
   }
   return sum / static_cast<double>(kBrdfSamples);
@@ -115,8 +121,10 @@ ReflectionMap prefilter_reflections(const Probe& probe, const glm::dmat3& tag_fr
 Image environment_brdf_table(int size) {
   Image table(size, size, 2);
   parallel_for(size, 0, [&](std::size_t row) {
+    const double roughness = (static_cast<double>(row) + 0.5) / size, alpha = roughness * roughness;
+    const std::vector<glm::dvec3> halves = ggx_half_vectors(alpha);
     for (int x = 0; x < size; ++x) {
-      const glm::dvec2 value = integrated_brdf((x + 0.5) / size, (static_cast<double>(row) + 0.5) / size);
+      const glm::dvec2 value = integrated_brdf((x + 0.5) / size, alpha, halves);
       table.pixel(x, static_cast<int>(row))[0] = static_cast<float>(value.x);
       table.pixel(x, static_cast<int>(row))[1] = static_cast<float>(value.y);
     }

@@ -7,6 +7,9 @@
 namespace catchlight::render {
 namespace {
 
+// Raise when what is found changes: older files then no longer match.
+constexpr std::uint32_t kVersion = 1;
+
 constexpr int kColumns = 180, kRows = 45;  // texels of two degrees
 constexpr int kSubsamples = 3;             // samples along each side of a texel
 /// Share that may come back of the light that reaches the plane: 1 in truth, but probes and planes are not perfect.
@@ -69,6 +72,26 @@ std::optional<ReceiverAlbedo> albedo_from_probe(const Probe& probe, const glm::d
     }
   }
   return albedo;
+}
+
+std::optional<ReceiverAlbedo> load_or_find_albedo(const Probe& probe, const std::string& probe_key,
+                                                  const glm::dmat3& tag_from_probe, const glm::vec3& probe_in_tag_m,
+                                                  const ContentCache& cache, const WarningHandler& warn) {
+  ContentHash hash;
+  hash.add(kVersion);
+  hash.add_bytes(probe_key.data(), probe_key.size());
+  hash.add(tag_from_probe);
+  hash.add(probe_in_tag_m);
+  // Without an image there is no such surface.
+  const auto make = [&] { return albedo_from_probe(probe, tag_from_probe, probe_in_tag_m).value_or(ReceiverAlbedo{}); };
+  const auto archive = [](CacheStream& file, ReceiverAlbedo& albedo) {
+    file(albedo.seen_from_m);
+    file(albedo.image.width);
+    file(albedo.image.height);
+    file(albedo.image.data);
+  };
+  ReceiverAlbedo albedo = cache.get<ReceiverAlbedo>("albedo", hash.text(), warn, make, archive);
+  return albedo.known() ? std::optional(std::move(albedo)) : std::nullopt;
 }
 
 }  // namespace catchlight::render

@@ -3,8 +3,10 @@
 
 #include <glm/glm.hpp>
 #include <optional>
+#include <string>
 
 #include "catchlight/image.hpp"
+#include "render/cache/content_cache.hpp"
 #include "render/probe/probe.hpp"
 
 namespace catchlight::render {
@@ -29,5 +31,10 @@ ReceiverAlbedo constant_albedo(const glm::vec3& albedo);
 /// itself then. 1 where the probe saw more than the plane can send back (a lamp below the horizon).
 std::optional<ReceiverAlbedo> albedo_from_probe(const Probe& probe, const glm::dmat3& tag_from_probe,
                                                 const glm::vec3& probe_in_tag_m);
+
+/// albedo_from_probe behind a cache. `probe_key`: content_key(probe).
+std::optional<ReceiverAlbedo> load_or_find_albedo(const Probe& probe, const std::string& probe_key,
+                                                  const glm::dmat3& tag_from_probe, const glm::vec3& probe_in_tag_m,
+                                                  const ContentCache& cache, const WarningHandler& warn);
 
 }  // namespace catchlight::render

@@ -37,16 +37,12 @@ struct Transfer {
 Transfer bake_transfer(const Mesh& mesh_tag, const ReceiverGrid& grid, const TransferOptions& options,
                        const ProgressHandler& progress);
 
-/// Key of everything the bake depends on (geometry, materials, grid, options, format version): a hexadecimal string.
+/// Key of everything the bake depends on (geometry, materials, grid, options, version): a hexadecimal string.
 std::string transfer_key(const Mesh& mesh_tag, const ReceiverGrid& grid, const TransferOptions& options);
 
-/// bake_transfer behind a cache folder (default: $XDG_CACHE_HOME/catchlight). A damaged or foreign cache file is baked anew;
-/// an unwritable folder only costs a warning, before the bake. `cache_hit` (optional) says whether it was read.
+/// bake_transfer behind a cache (ContentCache) in that folder. `cache_hit` (optional) says whether it was read.
 Transfer load_or_bake_transfer(const Mesh& mesh_tag, const ReceiverGrid& grid, const TransferOptions& options,
                                const std::string& cache_folder, const ProgressHandler& progress, const WarningHandler& warn,
                                bool* cache_hit = nullptr);
-
-/// $XDG_CACHE_HOME/catchlight or ~/.cache/catchlight.
-std::string default_cache_folder();
 
 }  // namespace catchlight::render

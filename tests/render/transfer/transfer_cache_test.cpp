@@ -148,14 +148,5 @@ TEST_F(TransferCache, UnwritableFolderOnlyCostsAWarning) {
   EXPECT_NE(warnings_.all[0].find("taken"), std::string::npos);
 }
 
-TEST(DefaultCacheFolder, FollowsTheXdgRule) {
-  const std::string before = std::getenv("XDG_CACHE_HOME") ? std::getenv("XDG_CACHE_HOME") : "";
-  setenv("XDG_CACHE_HOME", "/somewhere", 1);
-  EXPECT_EQ(default_cache_folder(), "/somewhere/catchlight");
-  unsetenv("XDG_CACHE_HOME");
-  EXPECT_EQ(default_cache_folder(), std::string(std::getenv("HOME")) + "/.cache/catchlight");
-  if (!before.empty()) setenv("XDG_CACHE_HOME", before.c_str(), 1);
-}
-
 }  // namespace
 }  // namespace catchlight::render
