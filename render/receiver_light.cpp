@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <glm/gtc/constants.hpp>
 #include <limits>
+#include <vector>
+
+#include "catchlight/color.hpp"
 
 namespace catchlight::render {
 namespace {
@@ -17,6 +20,22 @@ glm::dvec3 dot(std::span<const float> transfer, const ShRgb& light) {
   return sum;
 }
 
+double light_on_plane(const LightSample& sample) {
+  return glm::dot(kLuminanceWeights, sample.irradiance) * std::max(sample.direction.z, 0.0) / glm::pi<double>();
+}
+
+/// The samples less the weakest on the plane, whose shadows are not seen.
+std::vector<LightSample> visible_samples(std::span<const LightSample> samples, const OpenPlaneLight& open) {
+  std::vector<LightSample> result(samples.begin(), samples.end());
+  std::ranges::stable_sort(result, {}, light_on_plane);
+  double left_out = 0;
+  const double most = kInvisibleShadow * glm::dot(kLuminanceWeights, open.rest + open.lights);
+  const auto first_seen =
+      std::ranges::find_if(result, [&](const LightSample& sample) { return (left_out += light_on_plane(sample)) > most; });
+  result.erase(result.begin(), first_seen);
+  return result;
+}
+
 }  // namespace
 
 OpenPlaneLight open_plane_light(std::span<const float> unshadowed, const SplitLight& light_tag) {
@@ -27,12 +46,12 @@ OpenPlaneLight open_plane_light(std::span<const float> unshadowed, const SplitLi
   return result;
 }
 
-PlaneRect shadow_reach(std::span<const LightSample> samples_tag, const Bounds& box) {
+PlaneRect shadow_reach(std::span<const LightSample> samples_tag, const OpenPlaneLight& open, const Bounds& box) {
   constexpr float kNothing = std::numeric_limits<float>::max();
   const PlaneRect nothing{glm::vec2(kNothing), glm::vec2(-kNothing)};
   const float farthest_m = kFarthestShadow * box.diagonal_m();
   PlaneRect reach = nothing;
-  for (const LightSample& sample : samples_tag) {
+  for (const LightSample& sample : visible_samples(samples_tag, open)) {
     const glm::vec3 to_light(sample.direction);
     if (!(to_light.z > 0) || !(box.max_m.z > 0)) continue;
     for (const float z : {std::max(box.min_m.z, 0.0f), box.max_m.z}) {

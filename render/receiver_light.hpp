@@ -15,10 +15,13 @@ namespace catchlight::render {
 /// More than this is no shadow's bounce but a defect of the transfer.
 inline constexpr float kMaxShadowRatio = 4;
 
-/// Whether a shadow's ratio is so near to 1 that it moves no code by a quarter.
+/// The change of the light up to which a shadow is not drawn: it moves no code of 8 bits by a quarter.
+inline constexpr float kInvisibleShadow = 1e-3f;
+
+/// Whether the ratio is that of no shadow to the eye.
 inline bool is_no_shadow(const glm::vec3& ratio) {
-  constexpr float kInvisible = 5e-4f;
-  return std::abs(ratio.x - 1) < kInvisible && std::abs(ratio.y - 1) < kInvisible && std::abs(ratio.z - 1) < kInvisible;
+  return std::abs(ratio.x - 1) < kInvisibleShadow && std::abs(ratio.y - 1) < kInvisibleShadow &&
+         std::abs(ratio.z - 1) < kInvisibleShadow;
 }
 
 /// Irradiance / pi of the plane where the object shadows nothing.
@@ -31,8 +34,9 @@ struct OpenPlaneLight {
 OpenPlaneLight open_plane_light(std::span<const float> unshadowed, const SplitLight& light_tag);
 
 /// The part of the plane onto which samples that shine from above it may cast the shadow of what lies in the box (tag frame), no
-/// farther away than 16 times its size. Empty (min beyond max) without any.
-PlaneRect shadow_reach(std::span<const LightSample> samples_tag, const Bounds& box);
+/// farther away than 16 times its size. Samples that graze the plane throw long shadows which nobody sees: those that together
+/// give less than kInvisibleShadow of the open plane's light count for nothing. Empty (min beyond max) without any.
+PlaneRect shadow_reach(std::span<const LightSample> samples_tag, const OpenPlaneLight& open, const Bounds& box);
 
 /// Texels that hold the lights' irradiance on the plane.
 struct ReceiverTexels {

@@ -27,11 +27,11 @@ PURE float gaussian(ivec2 place, uint seed, uint stream) {
 }
 
 // A pixel keeps the noise of what it keeps of the plate, and so needs the rest: none where nothing was touched, all of it where
-// the object covers. Variance = slope * light + floor; the result is the missing noise's standard deviation.
-PURE vec3 missing_sigma(vec3 slope, vec3 lowest, vec3 light, vec3 background, vec3 kept) {
-  vec3 wanted = max(slope * max(light, vec3(0.0f)) + lowest, vec3(0.0f));
-  vec3 there = kept * kept * max(slope * max(background, vec3(0.0f)) + lowest, vec3(0.0f));
-  return sqrt(max(wanted - there, vec3(0.0f)));
+// the object covers. A channel's variance = slope * light + lowest; the result is the missing noise's standard deviation.
+PURE float missing_sigma(float slope, float lowest, float light, float background, float kept) {
+  float wanted = max(slope * max(light, 0.0f) + lowest, 0.0f);
+  float there = kept * kept * max(slope * max(background, 0.0f) + lowest, 0.0f);
+  return sqrt(max(wanted - there, 0.0f));
 }
 
 #ifdef __cplusplus

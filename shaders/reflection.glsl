@@ -61,7 +61,7 @@ vec3 mirrored_radiance(vec3 position, vec3 n, vec3 to_viewer, float roughness, b
   float weights = 0.0;
   for (int i = 0; i < rays; ++i) {
     vec2 u = hammersley(i, rays);
-    vec3 direction = reflect(-to_viewer, surface_frame * visible_normal(viewer, alpha, u)) + (u.x - 0.5) * dx + (u.y - 0.5) * dy;
+    vec3 direction = reflect(-to_viewer, surface_frame * visible_normal(viewer, alpha, disc_point(u))) + (u.x - 0.5) * dx + (u.y - 0.5) * dy;
     float above = dot(direction, n);
     if (above <= 0.0) continue;
     float weight = lobe_weight(above, alpha);

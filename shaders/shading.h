@@ -73,15 +73,21 @@ PURE vec2 hammersley(int i, int count) {
   return vec2((float(i) + 0.5f) / float(count), inverse_bits + 0.5f / float(count));
 }
 
+// A point of the unit disc, evenly spread by u of the unit square.
+PURE vec2 disc_point(vec2 u) {
+  float r = sqrt(u.x), phi = 2.0f * kPi * u.y;
+  return r * vec2(cos(phi), sin(phi));
+}
+
 // Visible normal of the GGX distribution (Heitz, "Sampling the GGX Distribution of Visible Normals", JCGT 2018). `v` in the surface's
 // frame, z along its normal.
-PURE vec3 visible_normal(vec3 v, float alpha, vec2 u) {
+PURE vec3 visible_normal(vec3 v, float alpha, vec2 disc) {
   vec3 stretched = normalize(vec3(alpha * v.x, alpha * v.y, v.z));
   float length_squared = stretched.x * stretched.x + stretched.y * stretched.y;
   vec3 t1 = length_squared > 0.0f ? vec3(-stretched.y, stretched.x, 0.0f) * inversesqrt(length_squared) : vec3(1.0f, 0.0f, 0.0f);
   vec3 t2 = cross(stretched, t1);
-  float r = sqrt(u.x), phi = 2.0f * kPi * u.y, s = 0.5f * (1.0f + stretched.z);
-  float p1 = r * cos(phi), p2 = mix(sqrt(1.0f - p1 * p1), r * sin(phi), s);
+  float s = 0.5f * (1.0f + stretched.z);
+  float p1 = disc.x, p2 = mix(sqrt(1.0f - p1 * p1), disc.y, s);
   vec3 n = p1 * t1 + p2 * t2 + sqrt(max(0.0f, 1.0f - p1 * p1 - p2 * p2)) * stretched;
   return normalize(vec3(alpha * n.x, alpha * n.y, max(0.0f, n.z)));
 }

@@ -175,6 +175,12 @@ glm::vec3 DirectLight::irradiance(const SurfacePoint& point, float* shares) cons
     for (std::size_t i = 0; shares && i < samples_.size(); ++i) shares[i] = node.sees(i) ? 1 : 0;
     return glm::max(point.normal * node.flux, 0.0f);
   }
+  if (!shares && lattices_[point.triangle].steps == 0) {  // corners that see the same samples
+    const std::uint32_t* corner = &mesh_.indices[3 * static_cast<std::size_t>(point.triangle)];
+    const glm::vec2& w = point.weights;
+    return glm::pi<float>() * ((1 - w.x - w.y) * at_vertices_over_pi_[corner[0]] + w.x * at_vertices_over_pi_[corner[1]] +
+                               w.y * at_vertices_over_pi_[corner[2]]);
+  }
   const auto [nodes, w] = corners_at(point);
   const glm::mat3 flux = w.x * nodes[0]->flux + w.y * nodes[1]->flux + w.z * nodes[2]->flux;
   for (std::size_t i = 0; shares && i < samples_.size(); ++i)

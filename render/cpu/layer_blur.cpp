@@ -9,16 +9,6 @@
 namespace catchlight::render {
 namespace {
 
-Float4 load(const float* pixel) {
-  Float4 value;
-  std::memcpy(&value, pixel, sizeof(value));
-  return value;
-}
-
-void store(Float4 value, float* pixel) {
-  std::memcpy(pixel, &value, sizeof(value));
-}
-
 PixelRect grown(const PixelRect& rect, int across, int down, const Image& image) {
   return intersect({rect.x - across, rect.y - down, rect.width + 2 * across, rect.height + 2 * down},
                    {0, 0, image.width, image.height});

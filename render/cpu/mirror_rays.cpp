@@ -113,8 +113,8 @@ bool MirrorRays::meet(Walk& walk, const RayStream& hits, std::size_t at, MirrorR
     return false;
   }
   const glm::mat3 frame = shading::frame_around(normal);
-  const glm::vec3 facet =
-      frame * shading::visible_normal(-walk.direction * frame, roughness * roughness, way_from_surface(ray.index, bounce));
+  const glm::vec3 facet = frame * shading::visible_normal(-walk.direction * frame, roughness * roughness,
+                                                          shading::disc_point(way_from_surface(ray.index, bounce)));
   const glm::vec3 sampled = glm::reflect(walk.direction, facet);
   walk.direction = glm::dot(sampled, normal) > 0 ? glm::normalize(sampled) : mirror;
   walk.origin_m = start(position, normal);

@@ -38,7 +38,7 @@ struct MirroredLight::Lobe {
   glm::vec3 to_viewer, normal, viewer_local, footprint_x, footprint_y;
   glm::mat3 frame;
   float alpha, share, spread;
-  int rays;
+  std::span<const LobePoint> points;
 
   struct Direction {
     glm::vec3 direction;
@@ -46,8 +46,8 @@ struct MirroredLight::Lobe {
   };
 
   Direction at(int i) const {
-    const glm::vec2 u = shading::hammersley(i, rays);
-    const glm::vec3 facet = alpha > 0 ? frame * shading::visible_normal(viewer_local, alpha, u) : normal;
+    const auto& [u, disc] = points[static_cast<std::size_t>(i)];
+    const glm::vec3 facet = alpha > 0 ? frame * shading::visible_normal(viewer_local, alpha, disc) : normal;
     const glm::vec3 direction = glm::reflect(-to_viewer, facet) + (u.x - 0.5f) * footprint_x + (u.y - 0.5f) * footprint_y;
     const float above = glm::dot(direction, normal);
     return {glm::normalize(direction), above > 0 ? shading::lobe_weight(above, alpha) : 0};
@@ -55,7 +55,18 @@ struct MirroredLight::Lobe {
 };
 
 MirroredLight::MirroredLight(const SurfaceMaterials& materials, const MirrorRays& rays, int lobe_rays)
-    : materials_(materials), rays_(rays), lobe_rays_(lobe_rays) {}
+    : materials_(materials), rays_(rays), lobe_rays_(lobe_rays) {
+  const auto points_of = [](int count) {
+    std::vector<LobePoint> points;
+    for (int i = 0; i < count; ++i) {
+      const glm::vec2 square = shading::hammersley(i, count);
+      points.push_back({square, shading::disc_point(square)});
+    }
+    return points;
+  };
+  rough_points_ = points_of(std::max(lobe_rays, 1));
+  polished_points_ = points_of(kPolishedRays);
+}
 
 bool MirroredLight::mirrors(const SurfacePoint& point) const {
   const auto& m = materials_.materials[point.material];
@@ -82,7 +93,7 @@ int MirroredLight::sharers_of(const Frame& frame, std::size_t index) const {
   return share <= kFootprintOf8 ? 8 : share <= kFootprintOf4 ? 4 : 2;
 }
 
-MirroredLight::Lobe MirroredLight::lobe_of(const Frame& frame, std::size_t index, int rays) const {
+MirroredLight::Lobe MirroredLight::lobe_of(const Frame& frame, std::size_t index) const {
   const SurfacePoint& point = frame.surface.points[index];
   const float roughness = materials_.materials[point.material].emissive_roughness.w;
   Lobe lobe;
@@ -92,9 +103,9 @@ MirroredLight::Lobe MirroredLight::lobe_of(const Frame& frame, std::size_t index
   lobe.viewer_local = point.to_viewer * lobe.frame;
   // Without rays of its own the whole lobe is read from the prefiltered probe, in the mirror direction.
   lobe.alpha = lobe_rays_ > 0 ? roughness * roughness : 0;
-  lobe.share = lobe_rays_ > 0 ? std::pow(static_cast<float>(rays), -0.25f) * roughness : roughness;
+  lobe.share = lobe_rays_ > 0 ? std::pow(static_cast<float>(rays_of(point)), -0.25f) * roughness : roughness;
   lobe.spread = lobe.share * lobe.share + 0.25f * glm::length(lobe.footprint_x + lobe.footprint_y);
-  lobe.rays = rays;
+  lobe.points = is_rough(point) ? rough_points_ : polished_points_;
   return lobe;
 }
 
@@ -157,7 +168,7 @@ void MirroredLight::look_for_object(const Frame& frame) {
     for (std::size_t i = first; i < last; ++i) {
       if (!mirrors(points[i])) continue;
       choose_rays(frame, i, chosen);
-      const Lobe lobe = lobe_of(frame, i, rays_of(points[i]));
+      const Lobe lobe = lobe_of(frame, i);
       rays.push_back({rays_.start(points[i].position_m, points[i].normal), lobe.at(chosen.front()).direction, 0, 0, 0});
       of.push_back(points[i].pixel);
     }
@@ -195,7 +206,7 @@ void MirroredLight::trace(const Frame& frame, std::size_t first, std::size_t las
     sums_[i] = {};
     if (!mirrors(point)) continue;
     choose_rays(frame, i, chosen);
-    const Lobe lobe = lobe_of(frame, i, rays_of(point));
+    const Lobe lobe = lobe_of(frame, i);
     const bool may_hit = lobe_rays_ > 0 && near_hit_[point.pixel];
     for (const int number : chosen) {
       const auto [direction, weight] = lobe.at(number);

@@ -34,13 +34,17 @@ class MirroredLight {
     bool has_highlights;
   };
   struct Lobe;
+  /// A lobe's directions before the surface gives them their place.
+  struct LobePoint {
+    glm::vec2 square, disc;  ///< Hammersley's point in the unit square, and the same spread over the unit disc
+  };
 
   bool mirrors(const SurfacePoint& point) const;
   bool is_rough(const SurfacePoint& point) const;
   int rays_of(const SurfacePoint& point) const;
   int sharers_of(const Frame& frame, std::size_t index) const;
   void choose_rays(const Frame& frame, std::size_t index, std::vector<int>& chosen) const;
-  Lobe lobe_of(const Frame& frame, std::size_t index, int rays) const;
+  Lobe lobe_of(const Frame& frame, std::size_t index) const;
   void find_mirror_directions(const Frame& frame);
   void find_footprints(const Frame& frame, std::size_t index);
   void look_for_object(const Frame& frame);
@@ -50,6 +54,7 @@ class MirroredLight {
   const SurfaceMaterials& materials_;
   const MirrorRays& rays_;
   int lobe_rays_;
+  std::vector<LobePoint> rough_points_, polished_points_;
   std::vector<glm::vec3> mirror_, footprint_x_, footprint_y_;  ///< of each point
   std::vector<char> hit_, near_hit_;  ///< a pixel each: whether its first ray, or a neighbour's, meets the object
   std::vector<Sum> sums_;

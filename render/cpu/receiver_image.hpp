@@ -10,7 +10,7 @@
 namespace catchlight::render {
 
 /// Draws the ratio of shadowed to unshadowed light into an image of the plan's rectangle with four channels; 1 where there is no
-/// shadow. Gives the pixels of the image beyond which all is 1.
+/// shadow. Where it changes slowly it is interpolated. Gives the pixels of the image beyond which it does so, and no blur shows.
 PixelRect draw_receiver(const FrameView& view, const FramePlan& plan, const PixelRays& pixel_rays, const ReceiverShadow& shadow,
                         Image& ratio);
 

@@ -1,7 +1,7 @@
 #include "render/cpu/receiver_shadow.hpp"
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <glm/gtc/constants.hpp>
@@ -18,6 +18,29 @@ namespace {
 constexpr float kFadePoints = 3;
 constexpr int kMaxTexels = 2048;
 constexpr float kTexelsPerGridCell = 4;
+
+/// The code of a ratio of 1; kMaxShadowRatio has the last code.
+constexpr float kOne = 16384;
+
+using Texel = std::uint16_t __attribute__((vector_size(8)));
+
+Texel coded(const glm::vec3& ratio) {
+  const glm::vec3 code = glm::min(kOne * ratio + 0.5f, 65535.0f);
+  return Texel{static_cast<std::uint16_t>(code.x), static_cast<std::uint16_t>(code.y), static_cast<std::uint16_t>(code.z),
+               static_cast<std::uint16_t>(kOne)};
+}
+
+bool is_one(Texel texel) {
+  static constexpr auto kCode = static_cast<std::uint16_t>(kOne);
+  return std::bit_cast<std::uint64_t>(texel) == std::bit_cast<std::uint64_t>(Texel{kCode, kCode, kCode, kCode});
+}
+
+/// Faint shadows go over to none, so that where they end is not seen.
+glm::vec3 faded(const glm::vec3& ratio) {
+  const glm::vec3 change = glm::abs(ratio - 1.0f);
+  const float most = std::max({change.x, change.y, change.z});
+  return 1.0f + glm::smoothstep(kInvisibleShadow, 3 * kInvisibleShadow, most) * (ratio - 1.0f);
+}
 
 /// 1 well within a rectangle of `size` texels, 0 at its rim.
 float rim_fade(const glm::vec2& texel, const glm::vec2& size) {
@@ -53,16 +76,16 @@ ReceiverShadow::ReceiverShadow(const Transfer& transfer, const RayScene& rays, c
 
 void ReceiverShadow::update(const SplitLight& light_tag) {
   const std::vector<glm::vec3> grid_light = transferred_light(transfer_.receiver, transfer_.receiver_direct, light_tag);
-  const PlaneRect of_lights = shadow_reach(light_tag.samples, object_);
+  const OpenPlaneLight open = open_plane_light(transfer_.receiver_unshadowed, light_tag);
+  const PlaneRect of_lights = shadow_reach(light_tag.samples, open, object_);
   PlaneLights lights;
   if (!of_lights.empty()) lights = plane_lights(light_tag.samples, rays_, receiver_texels(of_lights, object_), object_);
-  draw_ratio(light_tag, grid_light, lights);
+  draw_ratio(open, grid_light, lights);
   crop();
 }
 
-void ReceiverShadow::draw_ratio(const SplitLight& light_tag, std::span<const glm::vec3> grid_light, const PlaneLights& lights) {
+void ReceiverShadow::draw_ratio(const OpenPlaneLight& open, std::span<const glm::vec3> grid_light, const PlaneLights& lights) {
   const ReceiverGrid& grid = transfer_.grid;
-  const OpenPlaneLight open = open_plane_light(transfer_.receiver_unshadowed, light_tag);
   const glm::vec3 open_rest(open.rest), open_lights(open.lights), open_all(open.rest + open.lights);
   const glm::ivec2 points(grid.columns, grid.rows);
   const glm::vec2 cell_m = (grid.max_m - grid.min_m) / glm::vec2(points - 1);
@@ -91,8 +114,8 @@ void ReceiverShadow::draw_ratio(const SplitLight& light_tag, std::span<const glm
       // A plane that gets no light of a colour has no shadow in it.
       for (int c = 0; c < 3; ++c)
         if (open_all[c] > 1e-9f && sum[c] >= 0) ratio[c] = std::min(sum[c] / open_all[c], kMaxShadowRatio);
-      if (is_no_shadow(ratio)) ratio = glm::vec3(1);
-      ratio_[row * static_cast<std::size_t>(size_.x) + static_cast<std::size_t>(x)] = float4(ratio);
+      ratio = faded(ratio);
+      ratio_[row * static_cast<std::size_t>(size_.x) + static_cast<std::size_t>(x)] = coded(ratio);
     }
   });
 }
@@ -102,14 +125,14 @@ void ReceiverShadow::crop() {
   glm::ivec2 low = size_, high(-1);
   for (int y = 0; y < size_.y; ++y) {
     for (int x = 0; x < size_.x; ++x) {
-      if (rgb(ratio_[static_cast<std::size_t>(y) * size_.x + x]) == glm::vec3(1)) continue;
+      if (is_one(ratio_[static_cast<std::size_t>(y) * size_.x + x])) continue;
       low = glm::min(low, {x, y}), high = glm::max(high, {x, y});
     }
   }
   if (high.x < 0) low = high = glm::ivec2(0);
   low = glm::max(low - 1, 0), high = glm::min(high + 1, size_ - 1);
   const glm::ivec2 size = high - low + 1;
-  std::vector<Float4> kept(static_cast<std::size_t>(size.x) * size.y);
+  std::vector<Texel> kept(static_cast<std::size_t>(size.x) * size.y);
   for (int y = 0; y < size.y; ++y)
     std::copy_n(&ratio_[static_cast<std::size_t>(low.y + y) * size_.x + low.x], size.x,
                 &kept[static_cast<std::size_t>(y) * size.x]);
@@ -125,10 +148,13 @@ glm::vec3 ReceiverShadow::ratio(const glm::vec2& place_m) const {
   const glm::vec2 at = glm::clamp(texel - 0.5f, glm::vec2(0), glm::vec2(size_ - 1));
   const int x = static_cast<int>(at.x), y = static_cast<int>(at.y);
   const std::size_t right = x + 1 < size_.x ? 1 : 0, below = y + 1 < size_.y ? static_cast<std::size_t>(size_.x) : 0;
-  const Float4* first = &ratio_[static_cast<std::size_t>(y) * size_.x + x];
+  const Texel* first = &ratio_[static_cast<std::size_t>(y) * size_.x + x];
+  const Texel corners[4] = {first[0], first[right], first[below], first[below + right]};
+  if (is_one(corners[0]) && is_one(corners[1]) && is_one(corners[2]) && is_one(corners[3])) return glm::vec3(1);
+  const auto value = [&](int k) { return __builtin_convertvector(corners[k], Float4); };
   const float across = at.x - static_cast<float>(x);
-  return rgb(blend(blend(first[0], first[right], across), blend(first[below], first[below + right], across),
-                   at.y - static_cast<float>(y)));
+  const Float4 upper = blend(value(0), value(1), across), lower = blend(value(2), value(3), across);
+  return rgb(blend(upper, lower, at.y - static_cast<float>(y)) * splat(1 / kOne));
 }
 
 }  // namespace catchlight::render

@@ -21,8 +21,10 @@ class ResponseTable {
   /// A pixel's light; NaN where the plate is. `plate` must have the format of the tables.
   glm::vec3 linear(const Plate& plate, std::size_t pixel) const;
 
-  /// A pixel's codes.
-  static glm::vec3 codes(const Plate& plate, std::size_t pixel);
+  /// Codes and light of `count` pixels from `pixel` on, channel by channel, the channels `stride` apart.
+  void read(const Plate& plate, std::size_t pixel, int count, std::size_t stride, float* codes, float* linear) const;
+  /// Codes alone.
+  void read_codes(const Plate& plate, std::size_t pixel, int count, std::size_t stride, float* codes) const;
 
   /// The code of a light, to a 20 000th of a code's range between 0 and 16; exact beyond and for curves from tables.
   float code(float linear, int channel) const {
@@ -39,11 +41,14 @@ class ResponseTable {
   static constexpr std::uint32_t kLastBits = std::bit_cast<std::uint32_t>(16.0f);
   static constexpr std::uint32_t kStepBits = 15;
 
+  template <typename Code>
+  void read_integers(const Plate& plate, std::size_t pixel, int count, std::size_t stride, float* codes, float* linear) const;
   float exact_code(float linear, int channel) const;
 
   std::optional<CameraResponse> response_;
   Plate::Format format_ = Plate::Format::rgb_u8;
   std::array<std::vector<float>, 3> linear_;  ///< of integer codes
+  std::vector<float> codes_;                  ///< of integers
   std::vector<float> inverse_;                ///< empty for a curve
 };
 

@@ -43,7 +43,7 @@ void ReceiverPass::light_by(const LightTransfer& transfer, const SplitLight& lig
   }
   block_.points = glm::ivec4(grid_.columns, grid_.rows, 0, 0);
   reach_ = {grid_.min_m, grid_.max_m};
-  const PlaneRect of_shadows = shadow_reach(light.samples, box);
+  const PlaneRect of_shadows = shadow_reach(light.samples, open, box);
   if (!of_shadows.empty()) draw_lights(of_shadows, lights, box);
   block_.drawn_min_max_m = as_vec4(reach_);
   uniforms_.update(block_);

@@ -25,12 +25,12 @@ std::vector<double> blur_taps() {
 }
 
 /// What of a pixel's light is over the threshold of luminance.
-Texel excess(const float* rgba, float threshold) {
-  static const Texel weights = texel_of(kLuminanceWeights);
-  const Texel light = at_most(positive(load(rgba)), Texel{kBrightestPixel, kBrightestPixel, kBrightestPixel, 0});
-  const Texel parts = weights * light;
+Float4 excess(const float* rgba, float threshold) {
+  static const Float4 weights = float4(kLuminanceWeights);
+  const Float4 light = at_most(positive(load(rgba)), Float4{kBrightestPixel, kBrightestPixel, kBrightestPixel, 0});
+  const Float4 parts = weights * light;
   const float luminance = parts[0] + parts[1] + parts[2];
-  return luminance > threshold ? (luminance - threshold) / luminance * light : Texel{};
+  return luminance > threshold ? (luminance - threshold) / luminance * light : Float4{};
 }
 
 /// Half the size: the mean of 2 x 2 texels.
@@ -38,11 +38,11 @@ void shrink(const GlarePicture& from, GlarePicture& to) {
   to.clear();
   for (int y = 0; y < to.rows(); ++y) {
     GlarePicture pair(from.columns(), 1);
-    for (const int row : {2 * y, 2 * y + 1}) pair.add(0, from, row, 0, uniform(0.25), from.all_columns());
+    for (const int row : {2 * y, 2 * y + 1}) pair.add(0, from, row, 0, splat(0.25), from.all_columns());
     const Span lit = pair.lit(0), span{lit.begin / 2, (lit.end + 1) / 2};
     if (lit.empty()) continue;
-    const Texel* texels = pair.widen(0, {2 * span.begin, 2 * span.end});
-    Texel* row = to.widen(y, span);
+    const Float4* texels = pair.widen(0, {2 * span.begin, 2 * span.end});
+    Float4* row = to.widen(y, span);
     for (int x = span.begin; x < span.end; ++x) row[x] = texels[2 * x] + texels[2 * x + 1];
   }
 }
@@ -83,10 +83,10 @@ void ClassicGlare::find_bright(const Image& light) {
     // No luminance is above its highest channel, but for rounding.
     if (!any_above(light.pixel(0, y), width_, threshold * (1 - 1e-6f))) continue;
     pixel_line_.clear();
-    Texel* pixels = pixel_line_.widen(0, pixel_line_.all_columns());
+    Float4* pixels = pixel_line_.widen(0, pixel_line_.all_columns());
     for (int x = 0; x < width_; ++x) pixels[x] = excess(light.pixel(x, y), threshold);
     texel_line_.clear();
-    Texel* texels = texel_line_.widen(0, texel_line_.all_columns());
+    Float4* texels = texel_line_.widen(0, texel_line_.all_columns());
     for (int t = 0; t < kSize; ++t) {
       const double first = t * across, last = first + across;
       for (int x = static_cast<int>(first); x < width_ && x < last; ++x)
@@ -94,7 +94,7 @@ void ClassicGlare::find_bright(const Image& light) {
     }
     for (int t = static_cast<int>(y / down); t < kSize && t * down < y + 1; ++t) {
       const double part = std::min(y + 1.0, (t + 1) * down) - std::max<double>(y, t * down);
-      if (part > 0) bright.add(t, texel_line_, 0, 0, uniform(part / down), bright.all_columns());
+      if (part > 0) bright.add(t, texel_line_, 0, 0, splat(part / down), bright.all_columns());
     }
   }
 }
@@ -138,7 +138,7 @@ void ClassicGlare::make_streaks() {
   }
 }
 
-void ClassicGlare::add_to_row(int y, Texel* row) const {
+void ClassicGlare::add_to_row(int y, Float4* row) const {
   const auto i = static_cast<std::size_t>(y);
   add_between(bloom_, rows_of_bloom_[i], columns_of_bloom_, static_cast<float>(settings_.bloom_strength), row);
   add_between(streaks_, rows_of_streaks_[i], columns_of_streaks_, static_cast<float>(settings_.streak_strength), row);

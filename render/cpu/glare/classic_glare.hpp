@@ -19,7 +19,7 @@ class ClassicGlare {
   void draw(const Image& light);
 
   /// Adds it, by its strengths, to row y of the picture. May be called from several threads at once.
-  void add_to_row(int y, Texel* row) const;
+  void add_to_row(int y, Float4* row) const;
 
   /// As ClassicLook has them: the bright parts and the bloom 512 squared, the streaks 128 squared.
   const GlarePicture& bright() const { return bright_[0].picture; }

@@ -115,7 +115,7 @@ Span GlareExcess::sum_rows(const Pixels& pixels, int y, const Span& texels) {
                                  {rect.x, rect.x + rect.width});
   if (columns.empty()) return columns;
   const int count = columns.end - columns.begin;
-  pixel_line_.assign(static_cast<std::size_t>(count), Texel{});
+  pixel_line_.assign(static_cast<std::size_t>(count), Float4{});
   const int first = down_.first[static_cast<std::size_t>(y)];
   const Span rows = intersect({first, first + down_.taps}, {rect.y, rect.y + rect.height});
   for (int row = rows.begin; row < rows.end; ++row) {
@@ -123,7 +123,7 @@ Span GlareExcess::sum_rows(const Pixels& pixels, int y, const Span& texels) {
     if (weight == 0) continue;
     const float* object = pixels.object.pixel(columns.begin - rect.x, row - rect.y);
     // What the object emits of it comes along in place of the coverage.
-    const Texel most{kBrightestPixel, kBrightestPixel, kBrightestPixel, 0};
+    const Float4 most{kBrightestPixel, kBrightestPixel, kBrightestPixel, 0};
     if (!pixels.emission) {
       for (int i = 0; i < count; ++i)
         pixel_line_[static_cast<std::size_t>(i)] += weight * at_most(positive(load(object + 4 * i)), most);
@@ -131,8 +131,8 @@ Span GlareExcess::sum_rows(const Pixels& pixels, int y, const Span& texels) {
     }
     const float* emission = pixels.emission->pixel(columns.begin - rect.x, row - rect.y);
     for (int i = 0; i < count; ++i, emission += pixels.emission->channels) {
-      const Texel emitted = at_most(positive(Texel{emission[0], emission[1], emission[2], 0}), most);
-      Texel light = at_most(positive(load(object + 4 * i)), most);
+      const Float4 emitted = at_most(positive(Float4{emission[0], emission[1], emission[2], 0}), most);
+      Float4 light = at_most(positive(load(object + 4 * i)), most);
       light[3] = emitted[0] + emitted[1] + emitted[2];
       pixel_line_[static_cast<std::size_t>(i)] += weight * light;
     }
@@ -143,11 +143,11 @@ Span GlareExcess::sum_rows(const Pixels& pixels, int y, const Span& texels) {
 /// Brings the object's light onto a row of texels.
 void GlareExcess::filter_row(const Pixels& pixels, int y, const Span& texels) {
   const Span columns = sum_rows(pixels, y, texels);
-  Texel* light = light_.widen(y, texels);
+  Float4* light = light_.widen(y, texels);
   for (int x = texels.begin; x < texels.end; ++x) {
     const int first = across_.first[static_cast<std::size_t>(x)];
     const float* weights = across_.weights_of(x);
-    Texel sum{};
+    Float4 sum{};
     const Span under = intersect({first, first + across_.taps}, columns);
     for (int i = under.begin; i < under.end; ++i)
       sum += weights[i - first] * pixel_line_[static_cast<std::size_t>(i - columns.begin)];
@@ -186,19 +186,19 @@ void GlareExcess::gate_row(int y, const Span& texels) {
 
 /// Writes a row of the excess, and of its parts; whether there is any.
 bool GlareExcess::divide_row(int y, const Span& texels) {
-  const Texel* light = light_.row(y);
-  Texel* all = all_.widen(y, texels);
-  Texel* reflected = is_divided_ ? reflected_.widen(y, texels) : nullptr;
-  Texel* emitted = is_divided_ ? emitted_.widen(y, texels) : nullptr;
-  const Texel rgb{1, 1, 1, 0};
+  const Float4* light = light_.row(y);
+  Float4* all = all_.widen(y, texels);
+  Float4* reflected = is_divided_ ? reflected_.widen(y, texels) : nullptr;
+  Float4* emitted = is_divided_ ? emitted_.widen(y, texels) : nullptr;
+  const Float4 rgb{1, 1, 1, 0};
   const auto strength = static_cast<float>(settings_.emitter_strength);
   auto found = rgb > rgb;
   for (int x = texels.begin; x < texels.end; ++x) {
-    const Texel kept = gate_[static_cast<std::size_t>(x)] * rgb * light[x];
+    const Float4 kept = gate_[static_cast<std::size_t>(x)] * rgb * light[x];
     // What rounding takes of light that is all emitted must not count as reflected.
     const float sum = std::max(light[x][0] + light[x][1] + light[x][2], 1e-30f);
     const float share = std::clamp(light[x][3] / sum * (1 + 1e-6f), 0.0f, 1.0f);
-    const Texel from_reflection = (1 - share) * kept, from_emission = strength * share * kept;
+    const Float4 from_reflection = (1 - share) * kept, from_emission = strength * share * kept;
     all[x] = from_reflection + from_emission;
     if (is_divided_) reflected[x] = from_reflection, emitted[x] = from_emission;
     found |= all[x] > 0;

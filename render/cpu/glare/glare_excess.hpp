@@ -63,7 +63,7 @@ class GlareExcess {
   TileMask tiles_;
   PixelRect light_rect_;
   bool is_divided_ = false;
-  std::vector<Texel> pixel_line_;  ///< a row of texels, still by pixels
+  std::vector<Float4> pixel_line_;  ///< a row of texels, still by pixels
   GlarePicture light_, all_, reflected_, emitted_;
   /// Brightest channel of each texel; highest and mean of them along the row within the gate's reach.
   std::vector<float> peaks_, highest_, means_, gate_;

@@ -17,7 +17,7 @@ std::array<double, 4> between_texels(double f) {
 /// One of the samples that are added up: a texel of the source that lies so far to the left and above, and its weight.
 struct Sample {
   int right, down;
-  Texel weight;
+  Float4 weight;
 };
 
 std::vector<Sample> samples_of(const StreakSamples& pass) {
@@ -32,7 +32,7 @@ std::vector<Sample> samples_of(const StreakSamples& pass) {
       const double share = shares[static_cast<std::size_t>(k)];
       const int across = k - 1;
       if (share != 0)
-        samples.push_back({along_x ? right : right + across, along_x ? down + across : down, texel_of(share * weight)});
+        samples.push_back({along_x ? right : right + across, along_x ? down + across : down, float4(share * weight)});
     }
   }
   return samples;
@@ -51,10 +51,10 @@ void add_blurred(const GlarePicture& from, const std::vector<double>& taps, doub
   const auto tap = [&](int d) { return taps[static_cast<std::size_t>(std::abs(d))]; };
   if (radius > 0) scratch.clear();
   for (int y = 0; radius > 0 && y < from.rows(); ++y)
-    for (int d = -radius; d <= radius; ++d) scratch.add(y, from, y, d, uniform(tap(d)), scratch.all_columns());
+    for (int d = -radius; d <= radius; ++d) scratch.add(y, from, y, d, splat(tap(d)), scratch.all_columns());
   const GlarePicture& rows = radius > 0 ? scratch : from;
   for (int y = reached.y; y < reached.y + reached.height; ++y)
-    for (int d = -radius; d <= radius; ++d) to.add(y, rows, y + d, 0, uniform(weight * tap(d)), columns_of(reached));
+    for (int d = -radius; d <= radius; ++d) to.add(y, rows, y + d, 0, splat(weight * tap(d)), columns_of(reached));
 }
 
 void add_streak_pass(const GlarePicture& from, const StreakSamples& pass, GlarePicture& to, const PixelRect& reached) {
@@ -74,8 +74,8 @@ std::vector<LinearSamples> linear_samples(int count, int texels) {
 }
 
 void add_between(const GlarePicture& from, const LinearSamples& down, const std::vector<LinearSamples>& across, float weight,
-                 Texel* to) {
-  std::vector<Texel> line(static_cast<std::size_t>(from.columns()));
+                 Float4* to) {
+  std::vector<Float4> line(static_cast<std::size_t>(from.columns()));
   bool is_lit = false;
   const auto add = [&](int y, float share) {
     const Span lit = from.lit(y);
@@ -86,7 +86,7 @@ void add_between(const GlarePicture& from, const LinearSamples& down, const std:
   add(down.second, weight * down.share);
   if (!is_lit) return;
   for (std::size_t i = 0; i < across.size(); ++i) {
-    const Texel a = line[static_cast<std::size_t>(across[i].first)], b = line[static_cast<std::size_t>(across[i].second)];
+    const Float4 a = line[static_cast<std::size_t>(across[i].first)], b = line[static_cast<std::size_t>(across[i].second)];
     to[i] += a + across[i].share * (b - a);
   }
 }

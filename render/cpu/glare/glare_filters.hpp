@@ -35,6 +35,6 @@ std::vector<LinearSamples> linear_samples(int count, int texels);
 
 /// Adds `weight` times a row between the rows of a picture, at each of `across`.
 void add_between(const GlarePicture& from, const LinearSamples& down, const std::vector<LinearSamples>& across, float weight,
-                 Texel* to);
+                 Float4* to);
 
 }  // namespace catchlight::render

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "render/cpu/glare/texel.hpp"
+#include "render/cpu/float4.hpp"
 
 namespace catchlight::render {
 
@@ -34,17 +34,17 @@ class GlarePicture {
   Span lit(int y) const;
 
   /// The row's texels; only those of its span may be read.
-  const Texel* row(int y) const { return &texels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_)]; }
+  const Float4* row(int y) const { return &texels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_)]; }
   /// The row's texels, its span grown to hold `span` too, which lies within the picture.
-  Texel* widen(int y, const Span& span);
+  Float4* widen(int y, const Span& span);
 
   /// Adds `weight` times a row of another picture to a row of this one, moved by so many texels to the right, within a span.
-  void add(int y, const GlarePicture& from, int from_y, int right, Texel weight, const Span& within);
+  void add(int y, const GlarePicture& from, int from_y, int right, Float4 weight, const Span& within);
 
  private:
   int columns_ = 0;
   std::vector<Span> lit_;
-  std::vector<Texel> texels_;
+  std::vector<Float4> texels_;
 };
 
 }  // namespace catchlight::render

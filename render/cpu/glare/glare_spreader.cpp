@@ -59,13 +59,13 @@ PixelRect GlareSpreader::spread(const GlareExcess& excess) {
 }
 
 /// Sums four rows of a level's picture into its line, black around; texel x of the result is column x of the picture.
-const Texel* GlareSpreader::start_line(int level, const GlarePicture& picture, int first_row,
-                                       const std::array<float, 4>& weights) {
+const Float4* GlareSpreader::start_line(int level, const GlarePicture& picture, int first_row,
+                                        const std::array<float, 4>& weights) {
   GlarePicture& line = levels_[static_cast<std::size_t>(level)].line;
   line.clear();
   for (int k = 0; k < 4; ++k) {
     const float weight = weights[static_cast<std::size_t>(k)];
-    if (weight != 0) line.add(0, picture, first_row + k, kPad, uniform(weight), line.all_columns());
+    if (weight != 0) line.add(0, picture, first_row + k, kPad, splat(weight), line.all_columns());
   }
   if (const Span lit = line.lit(0); !lit.empty()) line.widen(0, {lit.begin - kPad, lit.end + kPad});
   return line.row(0) + kPad;
@@ -76,14 +76,14 @@ void GlareSpreader::shrink(const GlarePicture& from, int level) {
   GlarePicture& to = levels_[static_cast<std::size_t>(level)].shrunk;
   to.clear();
   for (int y = 0; y < to.rows(); ++y) {
-    const Texel* line = start_line(level - 1, from, 2 * y - 5, kDown);
+    const Float4* line = start_line(level - 1, from, 2 * y - 5, kDown);
     const Span lit = levels_[static_cast<std::size_t>(level) - 1].line.lit(0);
     if (lit.empty()) continue;
     // The line's black texels and its padding count in `lit`.
     const Span texels = intersect({(lit.begin + 3) / 2, (lit.end - 2 * kPad + 4) / 2 + 1}, to.all_columns());
-    Texel* row = to.widen(y, texels);
+    Float4* row = to.widen(y, texels);
     for (int x = texels.begin; x < texels.end; ++x) {
-      const Texel* four = line + 2 * x - 5;
+      const Float4* four = line + 2 * x - 5;
       row[x] = kDown[0] * (four[0] + four[3]) + kDown[1] * (four[1] + four[2]);
     }
   }
@@ -110,14 +110,14 @@ void GlareSpreader::add_coarser(int level, const PixelRect& reached) {
   const auto [a, b, c, d] = weights;
   const std::array<float, 4> reversed{d, c, b, a};
   for (int y = reached.y; y < reached.y + reached.height; ++y) {
-    const Texel* line = start_line(level + 1, coarser.glow, (y + 1) / 2, y % 2 == 0 ? weights : reversed);
+    const Float4* line = start_line(level + 1, coarser.glow, (y + 1) / 2, y % 2 == 0 ? weights : reversed);
     const Span lit = coarser.line.lit(0);
     if (lit.empty()) continue;
     const Span texels = intersect({2 * lit.begin - 7, 2 * (lit.end - 2 * kPad) - 1}, columns_of(reached));
     if (texels.empty()) continue;
-    Texel* row = to.widen(y, texels);
+    Float4* row = to.widen(y, texels);
     for (int x = texels.begin; x < texels.end; ++x) {
-      const Texel* four = line + (x + 1) / 2;
+      const Float4* four = line + (x + 1) / 2;
       row[x] += x % 2 == 0 ? a * four[0] + b * four[1] + c * four[2] + d * four[3]
                            : d * four[0] + c * four[1] + b * four[2] + a * four[3];
     }
@@ -148,7 +148,7 @@ void GlareSpreader::add_star(const GlarePicture& from, int directions, const Gla
     add_streak_pass(*source, passes.back(), to, reached);
   }
   for (int y = reached.y; y < reached.y + reached.height; ++y)
-    to.add(y, narrow, y, 0, texel_of(star.at_source), columns_of(reached));
+    to.add(y, narrow, y, 0, float4(star.at_source), columns_of(reached));
 }
 
 }  // namespace catchlight::render

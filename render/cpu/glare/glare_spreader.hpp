@@ -34,7 +34,7 @@ class GlareSpreader {
 
   int coarsest() const { return static_cast<int>(levels_.size()) - 1; }
   const GlarePicture& source(const GlareExcess& excess, int level) const;
-  const Texel* start_line(int level, const GlarePicture& picture, int first_row, const std::array<float, 4>& weights);
+  const Float4* start_line(int level, const GlarePicture& picture, int first_row, const std::array<float, 4>& weights);
   void shrink(const GlarePicture& from, int level);
   void glow(const GlareExcess& excess, int level, const PixelRect& reached);
   void add_coarser(int level, const PixelRect& reached);

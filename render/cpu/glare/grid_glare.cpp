@@ -50,18 +50,18 @@ void GridGlare::read_row(int x, int y, int count, float* rgb) const {
     n = std::min(count, kPixels);
     const SplineSamples* across = &columns_[static_cast<std::size_t>(x)];
     const int first = across[0].first;
-    std::array<Texel, kTexels> line{};
+    std::array<Float4, kTexels> line{};
     for (int k = 0; k < 4; ++k) {
       const Span texels = intersect(spreader_.glare().lit(down.first + k), {first, across[n - 1].first + 4});
-      const Texel* row = texels.empty() ? nullptr : spreader_.glare().row(down.first + k);
+      const Float4* row = texels.empty() ? nullptr : spreader_.glare().row(down.first + k);
       const float weight = down.weights[static_cast<std::size_t>(k)];
       for (int t = texels.begin; t < texels.end; ++t) line[static_cast<std::size_t>(t - first)] += weight * row[t];
     }
     for (int i = 0; i < n; ++i, rgb += 3) {
-      const Texel* four = &line[static_cast<std::size_t>(across[i].first - first)];
+      const Float4* four = &line[static_cast<std::size_t>(across[i].first - first)];
       const std::array<float, 4>& w = across[i].weights;
       // Catmull and Rom's cubic under the streaks may undershoot by a little.
-      const Texel light = positive(w[0] * four[0] + w[1] * four[1] + w[2] * four[2] + w[3] * four[3]);
+      const Float4 light = positive(w[0] * four[0] + w[1] * four[1] + w[2] * four[2] + w[3] * four[3]);
       for (int c = 0; c < 3; ++c) rgb[c] = light[c];
     }
   }

@@ -28,7 +28,7 @@ void by_rows(int rows, const Work& work) {
 }  // namespace
 
 LuminanceHistogram measure_luminances(const Image& light, const glm::dvec3& luminance_weights) {
-  const Texel weights = texel_of(luminance_weights);
+  const Float4 weights = float4(luminance_weights);
   std::vector<LuminanceHistogram> parts(static_cast<std::size_t>(light.height) / kRowsPerTask + 1);
   by_rows(light.height, [&](std::size_t task, int first, int end) {
     for (int y = first; y < end; ++y)
@@ -55,13 +55,13 @@ void CpuTone::apply(Image& light, const PlateColor& color, const ToneCurve& curv
   if (classic_) classic_->draw(light);
   const glm::vec3 weights(luminance_weights(color.plate_from_rec709));
   by_rows(light.height, [&](std::size_t, int first, int end) {
-    std::vector<Texel> glare(static_cast<std::size_t>(light.width));
+    std::vector<Float4> glare(static_cast<std::size_t>(light.width));
     for (int y = first; y < end; ++y) {
-      std::fill(glare.begin(), glare.end(), Texel{});
+      std::fill(glare.begin(), glare.end(), Float4{});
       if (classic_) classic_->add_to_row(y, glare.data());
       for (int x = 0; x < light.width; ++x) {
         float* rgba = light.pixel(x, y);
-        const Texel added = glare[static_cast<std::size_t>(x)];
+        const Float4 added = glare[static_cast<std::size_t>(x)];
         const glm::vec3 scene(sane(rgba[0]) + added[0], sane(rgba[1]) + added[1], sane(rgba[2]) + added[2]);
         const glm::vec3 toned = curve(scene, weights, codes_end_at_1);
         for (int c = 0; c < 3; ++c) {

@@ -1,4 +1,4 @@
-#include "render/cpu/glare/texel.hpp"
+#include "render/cpu/float4.hpp"
 
 #include <cstddef>
 #include <limits>
@@ -6,7 +6,7 @@
 namespace catchlight::render {
 
 bool any_above(const float* rgba, int pixels, float threshold) {
-  const Texel limits{threshold, threshold, threshold, std::numeric_limits<float>::infinity()};
+  const Float4 limits{threshold, threshold, threshold, std::numeric_limits<float>::infinity()};
   auto found = limits > limits;
   for (int i = 0; i < pixels; ++i) found |= load(rgba + 4 * static_cast<std::ptrdiff_t>(i)) > limits;
   return (found[0] | found[1] | found[2]) != 0;
