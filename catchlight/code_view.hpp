@@ -60,20 +60,18 @@ struct CodeView {
             samples[2].at(x >> block_shift.x, y >> block_shift.y)};
   }
   glm::vec3 rgb(int x, int y) const { return rgb_from_samples * samples_at(x, y) + rgb_of_zeros; }
+
+  /// RGB less luma: the same for every pixel of a block, but in RGB formats.
+  glm::vec3 color(int x, int y) const {
+    const glm::vec3 here = samples_at(x, y);
+    return rgb_from_samples * here + rgb_of_zeros - (glm::dot(luma_weights, here) + luma_of_zeros);
+  }
+
+  /// The whole blocks in a part of the picture.
+  PixelRect whole_blocks(const PixelRect& rect) const;
 };
 
-/// The codes of part of a frame: luma of every pixel, and colour at the resolution that the format has. A pixel's RGB code is
-/// luma
-/// + color of its block.
-struct CodePlanes {
-  PixelRect rect;                ///< whole blocks, within the rectangle that was asked for
-  glm::ivec2 block_shift{0};     ///< as the view's
-  std::vector<float> luma;       ///< row-major
-  std::vector<glm::vec3> color;  ///< RGB less luma, a value a block, row-major
-
-  int blocks_across() const { return rect.width >> block_shift.x; }
-};
-
-CodePlanes code_planes(const CodeView& view, const PixelRect& rect);
+/// Luma of part of a picture, row-major. The part must lie in it.
+std::vector<float> luma_of(const CodeView& view, const PixelRect& rect);
 
 }  // namespace catchlight

@@ -9,7 +9,7 @@ namespace catchlight::tracking {
 namespace {
 
 constexpr double kReach_s = 2;
-constexpr std::size_t kMaxAsked = 24;  ///< frames, either side; evenly chosen where the footage has more
+constexpr std::size_t kMaxAsked = 8;  ///< frames, either side; evenly chosen where the footage has more
 
 using Readings = std::deque<ExposureReading>;
 

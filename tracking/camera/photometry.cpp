@@ -15,7 +15,7 @@
 namespace catchlight::tracking {
 namespace {
 
-constexpr double kMinCellPx = 3;       ///< below it, no pixel of a cell is free of its neighbours' light
+constexpr double kMinCellPx = 3;
 constexpr int kSamplesAcross = 8;      ///< a cell's middle, at most: more would add nothing but time
 constexpr double kClippedShare = 0.1;  ///< more clipped samples would pull their mean
 constexpr double kTrimmedShare =
@@ -47,40 +47,20 @@ CellGrid cell_grid(const CameraModel& camera, const RigidTransform& camera_from_
   return {camera, camera_from_tag, target.size_m / layout.cells_across, target.size_m / 2};
 }
 
-struct CellMean {
-  glm::dvec3 linear{0.0};
-  int pixels = 0;
-  glm::ivec3 clipped{0};  ///< pixels
-};
-
-void count_clipped(const PixelLight& light, const glm::dvec3& linear, glm::ivec3& clipped) {
-  for (int c = 0; c < 3; ++c) clipped[c] += linear[c] >= light.clipping_linear[c];
-}
-
-/// Mean of the nearest pixels to a grid of points in the cell's central half.
-CellMean cell_mean(const PixelLight& light, const CellGrid& grid, int column, int row) {
-  CellMean mean;
+/// The cell's central half; empty where it is too small to be free of its neighbours' light, or not wholly in the picture.
+std::optional<SquareLight> cell_light(const PixelLight& light, const CellGrid& grid, int column, int row) {
   const double cell_px = grid.cell_px(column, row);
-  if (cell_px < kMinCellPx) return mean;
+  if (cell_px < kMinCellPx) return std::nullopt;
+  const PlaneSquare middle{{(column + 0.25) * grid.cell_m - grid.half_size_m, grid.half_size_m - (row + 0.75) * grid.cell_m},
+                           grid.cell_m / 2};
   const int across = std::clamp(static_cast<int>(cell_px / 2), 1, kSamplesAcross);
-  for (int i = 0; i < across * across; ++i) {
-    const double u = 0.25 + 0.5 * (i % across + 0.5) / across, v = 0.25 + 0.5 * (i / across + 0.5) / across;
-    const auto seen = grid.seen_px(column + u, row + v);
-    if (!seen) continue;
-    const auto rgb = light.at(*seen);
-    if (!rgb) continue;
-    mean.linear += glm::dvec3(*rgb);
-    count_clipped(light, *rgb, mean.clipped);
-    ++mean.pixels;
-  }
-  if (mean.pixels > 0) mean.linear /= mean.pixels;
-  return mean;
+  return square_light(light, grid.camera, grid.camera_from_tag, middle, across);
 }
 
 /// Mean over cells without the darkest and brightest quarter of a channel.
-double trimmed_mean(const std::vector<CellMean>& cells, int channel) {
+double trimmed_mean(const std::vector<SquareLight>& cells, int channel) {
   std::vector<double> light;
-  for (const CellMean& cell : cells) light.push_back(cell.linear[channel]);
+  for (const SquareLight& cell : cells) light.push_back(cell.mean[channel]);
   std::sort(light.begin(), light.end());
   const auto trimmed = static_cast<std::ptrdiff_t>(kTrimmedShare * static_cast<double>(cells.size()));
   return std::accumulate(light.begin() + trimmed, light.end() - trimmed, 0.0) /
@@ -88,29 +68,14 @@ double trimmed_mean(const std::vector<CellMean>& cells, int channel) {
 }
 
 /// Whether more cells are clipped than the mean leaves out at the bright end.
-bool is_clipped(const std::vector<CellMean>& cells, int channel) {
-  const auto clipped = std::count_if(cells.begin(), cells.end(), [channel](const CellMean& cell) {
-    return cell.clipped[channel] > kClippedShare * cell.pixels;
+bool is_clipped(const std::vector<SquareLight>& cells, int channel) {
+  const auto clipped = std::count_if(cells.begin(), cells.end(), [channel](const SquareLight& cell) {
+    return cell.clipped[channel] > kClippedShare * cell.samples;
   });
   return clipped > static_cast<std::ptrdiff_t>(kTrimmedShare * static_cast<double>(cells.size()));
 }
 
 }  // namespace
-
-std::optional<glm::vec3> PixelLight::at(const glm::dvec2& seen_px) const {
-  const double x = std::floor(seen_px.x + 0.5), y = std::floor(seen_px.y + 0.5);
-  if (!(x >= 0 && x < codes.width_px && y >= 0 && y < codes.height_px)) return std::nullopt;
-  glm::vec3 code = codes.rgb(static_cast<int>(x), static_cast<int>(y));
-  if (!codes.is_real) code = glm::clamp(code, 0.0f, 1.0f);
-  return rec709_from_frame * glm::vec3(light_of_code(code.r, 0), light_of_code(code.g, 1), light_of_code(code.b, 2));
-}
-
-PixelLight pixel_light(const FrameImage& frame) {
-  const PlateColor color = frame.color();
-  const CodeView codes = frame.codes();
-  return {codes, LightTable(color), glm::inverse(color.plate_from_rec709),
-          clipping_linear(codes.is_real ? Plate::Format::rgb_f32 : Plate::Format::rgb_u8, color)};
-}
 
 PixelRect photometry_region(const CameraModel& camera, const RigidTransform& camera_from_tag, const TagTarget& target) {
   const TagLayout layout = tag_layout(target.family, target.id);
@@ -155,11 +120,10 @@ std::optional<TagPhotometry> unmixed_photometry(const PixelLight& light, const C
       if (!point || point->cell.x < 0 || point->cell.y < 0) continue;
       if (point->cell.x > layout.cells_across || point->cell.y > layout.cells_across) continue;
       const PatternSample sample = pattern.sample(point->cell, in_cells(blur_px2, point->cell_per_px * place->ideal_per_seen));
-      const auto seen = light.at({x, y});
-      if (!sample.known || !seen) continue;
-      const glm::dvec3 linear(*seen);
+      if (!sample.known) continue;
+      const glm::dvec3 linear(light.at(x, y));
       white += sample.white > 0.5;
-      if (sample.white > 0.5) count_clipped(light, linear, clipped);
+      for (int c = 0; c < 3; ++c) clipped[c] += sample.white > 0.5 && linear[c] >= light.clipping_linear[c];
       n += 1, w += sample.white, ww += sample.white * sample.white;
       l += linear, wl += sample.white * linear;
     }
@@ -184,16 +148,16 @@ std::optional<TagPhotometry> measure_photometry(const PixelLight& light, const C
                                                 const std::optional<Covariance2>& blur_px2) {
   const TagLayout layout = tag_layout(target.family, target.id);
   const CellGrid grid = cell_grid(camera, camera_from_tag, target, layout);
-  std::vector<CellMean> white, black;
+  std::vector<SquareLight> white, black;
   TagPhotometry photometry;
   for (int row = -layout.margin; row < layout.cells_across + layout.margin; ++row)
     for (int column = -layout.margin; column < layout.cells_across + layout.margin; ++column) {
       const Ink ink = layout.at(column, row);
       if (ink == Ink::unknown) continue;
-      const CellMean mean = cell_mean(light, grid, column, row);
-      if (mean.pixels == 0) continue;
-      (ink == Ink::white ? white : black).push_back(mean);
-      (ink == Ink::white ? photometry.white_pixels : photometry.black_pixels) += mean.pixels;
+      const auto cell = cell_light(light, grid, column, row);
+      if (!cell) continue;
+      (ink == Ink::white ? white : black).push_back(*cell);
+      (ink == Ink::white ? photometry.white_pixels : photometry.black_pixels) += cell->samples;
     }
   // Fewer than a ring's worth of either would let a single stain decide.
   constexpr std::size_t kMinCells = 8;

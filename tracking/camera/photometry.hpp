@@ -4,28 +4,13 @@
 #include <optional>
 
 #include "catchlight/camera.hpp"
-#include "catchlight/code_view.hpp"
-#include "catchlight/frame_image.hpp"
-#include "catchlight/light_table.hpp"
 #include "catchlight/pixel_rect.hpp"
 #include "catchlight/rigid_transform.hpp"
 #include "catchlight/tag.hpp"
 #include "catchlight/track.hpp"
+#include "tracking/camera/pixel_light.hpp"
 
 namespace catchlight::tracking {
-
-/// A frame's light, pixel by pixel as it is asked for: linear RGB of Rec. 709's primaries, 1 = sensor white.
-struct PixelLight {
-  CodeView codes;
-  LightTable light_of_code;
-  glm::mat3 rec709_from_frame{1.0f};
-  glm::dvec3 clipping_linear;  ///< light of the clipping level: at or above, the true value is unknown
-
-  /// The nearest pixel's; empty outside the picture.
-  std::optional<glm::vec3> at(const glm::dvec2& seen_px) const;
-};
-
-PixelLight pixel_light(const FrameImage& frame);
 
 /// Linear RGB of the print's white and black, free of what the lens blurs into each other.
 struct TagPhotometry {

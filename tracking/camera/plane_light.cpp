@@ -39,31 +39,6 @@ std::vector<Place> places_of(const TagTarget& target) {
   return places;
 }
 
-struct Mean {
-  glm::dvec3 sum{0.0};
-  glm::ivec3 clipped{0};
-  int samples = 0;
-  bool is_whole = true;
-};
-
-Mean mean_of(const PixelLight& light, const CameraModel& camera, const RigidTransform& camera_from_tag, double size_m,
-             const Place& place) {
-  Mean mean;
-  const int across = place.samples_across;
-  for (int i = 0; i < across * across && mean.is_whole; ++i) {
-    const glm::dvec2 share = (glm::dvec2(i % across, i / across) + 0.5) / static_cast<double>(across);
-    const glm::dvec2 at = size_m * (place.low + place.side * share);
-    const auto seen = project_px(camera, camera_from_tag * glm::dvec3(at, 0));
-    const auto rgb = seen ? light.at(*seen) : std::nullopt;
-    mean.is_whole = rgb.has_value();
-    if (!rgb) continue;
-    mean.sum += glm::dvec3(*rgb);
-    for (int c = 0; c < 3; ++c) mean.clipped[c] += (*rgb)[c] >= light.clipping_linear[c];
-    ++mean.samples;
-  }
-  return mean;
-}
-
 struct Ratio {
   double value, weight;
 };
@@ -111,13 +86,13 @@ PlaneLight measure_plane(const PixelLight& light, const CameraModel& camera, con
                          const TagTarget& target) {
   PlaneLight plane;
   for (const Place& place : places_of(target)) {
-    const Mean mean = mean_of(light, camera, camera_from_tag, target.size_m, place);
+    const PlaneSquare square{target.size_m * place.low, target.size_m * place.side};
+    const auto seen = square_light(light, camera, camera_from_tag, square, place.samples_across);
     glm::vec3 linear(std::numeric_limits<float>::quiet_NaN());
     for (int c = 0; c < 3; ++c)
-      if (mean.is_whole && mean.clipped[c] <= kClippedShare * mean.samples)
-        linear[c] = static_cast<float>(mean.sum[c] / mean.samples);
+      if (seen && seen->clipped[c] <= kClippedShare * seen->samples) linear[c] = static_cast<float>(seen->mean[c]);
     plane.linear.push_back(linear);
-    plane.samples.push_back(static_cast<float>(mean.samples));
+    plane.samples.push_back(static_cast<float>(place.samples_across * place.samples_across));
   }
   return plane;
 }

@@ -3,6 +3,7 @@
 #include "catchlight/pixel_rect.hpp"
 #include "catchlight/track.hpp"
 #include "tests/support/synthetic_tag.hpp"
+#include "tests/tracking/camera/light_fixture.hpp"
 #include "tracking/detection/families.hpp"
 
 #include <gtest/gtest.h>
@@ -18,27 +19,6 @@ SyntheticScene one_tag(double distance_m, const std::string& family = "tag36h11"
   scene.tags[0].camera_from_tag = tag_pose(scene.camera, {320, 240}, distance_m, {30, 20, 15});
   return scene;
 }
-
-/// The frame's light, grey times `tint`.
-struct Light {
-  int width_px = 0, height_px = 0;
-  std::vector<glm::vec3> rgb;
-
-  PixelLight view(double clipping_linear = 0.955) const {
-    CodeView codes;
-    codes.width_px = width_px;
-    codes.height_px = height_px;
-    codes.is_real = true;
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-      SampleView& samples = codes.samples[channel];
-      samples.kind = SampleView::Kind::real;
-      samples.data = reinterpret_cast<const std::uint8_t*>(rgb.data()) + channel * sizeof(float);
-      samples.step_bytes = sizeof(glm::vec3);
-      samples.stride_bytes = width_px * samples.step_bytes;
-    }
-    return {codes, LightTable({TransferFunction::linear}), glm::mat3(1), glm::dvec3(clipping_linear)};
-  }
-};
 
 Light light_of(const SyntheticFrame& frame, const glm::vec3& tint = glm::vec3(1), float most = 1) {
   Light light{frame.width_px, frame.height_px, {}};

@@ -68,40 +68,50 @@ TEST_P(CodesOf, EveryPixelHasItsOwnLumaAndItsBlocksColor) {
     }
 }
 
-TEST_P(CodesOf, PlanesAddUpToThePixels) {
+TEST_P(CodesOf, LumaAndColorAddUpToThePixels) {
   const Frame frame = CodesOf::frame();
   const CodeView codes = frame.codes();
-  const CodePlanes planes = code_planes(codes, {0, 0, kWidth, kHeight});
-  EXPECT_EQ(planes.rect.width, kWidth >> codes.block_shift.x << codes.block_shift.x) << "whole blocks";
-  for (int y = 0; y < planes.rect.height; ++y)
-    for (int x = 0; x < planes.rect.width; ++x) {
-      const glm::vec3 rgb =
-          planes
-              .color[static_cast<std::size_t>((y >> codes.block_shift.y) * planes.blocks_across() + (x >> codes.block_shift.x))] +
-          planes.luma[static_cast<std::size_t>(y * planes.rect.width + x)];
-      for (int c = 0; c < 3; ++c) ASSERT_NEAR(rgb[c], codes.rgb(x, y)[c], 2e-6) << x << "," << y;
-    }
+  const std::vector<float> luma = luma_of(codes, {0, 0, kWidth, kHeight});
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x)
+      for (int c = 0; c < 3; ++c)
+        ASSERT_NEAR(luma[static_cast<std::size_t>(y * kWidth + x)] + codes.color(x, y)[c], codes.rgb(x, y)[c], 2e-6)
+            << x << "," << y;
 }
 
 TEST_P(CodesOf, EveryPartEqualsThatPartOfTheWhole) {
   const Frame frame = CodesOf::frame();
   const CodeView codes = frame.codes();
-  const CodePlanes whole = code_planes(codes, {0, 0, kWidth, kHeight});
-  for (const PixelRect& rect : {PixelRect{0, 0, 9, 9}, {1, 1, 20, 12}, {7, 5, 17, 9}, {30, 20, 100, 100}, {-5, 3, 11, 6}}) {
-    const CodePlanes part = code_planes(codes, rect);
-    EXPECT_EQ(intersect(part.rect, rect), part.rect) << "no more than asked for";
-    const glm::ivec2 shift = part.block_shift;
-    for (int y = 0; y < part.rect.height; ++y)
-      for (int x = 0; x < part.rect.width; ++x) {
-        const int at_x = part.rect.x + x, at_y = part.rect.y + y;
-        ASSERT_EQ(part.luma[static_cast<std::size_t>(y * part.rect.width + x)],
-                  whole.luma[static_cast<std::size_t>(at_y * whole.rect.width + at_x)]);
-        ASSERT_EQ(part.color[static_cast<std::size_t>((y >> shift.y) * part.blocks_across() + (x >> shift.x))],
-                  whole.color[static_cast<std::size_t>((at_y >> shift.y) * whole.blocks_across() + (at_x >> shift.x))]);
-      }
+  const std::vector<float> whole = luma_of(codes, {0, 0, kWidth, kHeight});
+  for (const PixelRect& rect : {PixelRect{0, 0, 9, 9}, {1, 1, 20, 12}, {7, 5, 17, 9}, {kWidth - 5, kHeight - 3, 5, 3}}) {
+    const std::vector<float> part = luma_of(codes, rect);
+    for (int y = 0; y < rect.height; ++y)
+      for (int x = 0; x < rect.width; ++x)
+        ASSERT_EQ(part[static_cast<std::size_t>(y * rect.width + x)],
+                  whole[static_cast<std::size_t>((rect.y + y) * kWidth + rect.x + x)])
+            << x << "," << y;
   }
-  for (const PixelRect& rect : {PixelRect{3, 3, 0, 5}, {-9, -9, 9, 9}, {kWidth, 0, 4, 4}})
-    EXPECT_TRUE(code_planes(codes, rect).luma.empty());
+}
+
+TEST_P(CodesOf, WholeBlocksLieInThePartAndAreAllThatDo) {
+  const Frame frame = CodesOf::frame();
+  const CodeView codes = frame.codes();
+  const int across = 1 << codes.block_shift.x, down = 1 << codes.block_shift.y;
+  for (const PixelRect& rect : {PixelRect{0, 0, 9, 9},
+                                {1, 1, 20, 12},
+                                {30, 20, 100, 100},
+                                {-5, 3, 11, 6},
+                                {3, 3, 0, 5},
+                                {-9, -9, 9, 9},
+                                {kWidth, 0, 4, 4}}) {
+    const PixelRect blocks = codes.whole_blocks(rect), inside = intersect(rect, {0, 0, kWidth, kHeight});
+    for (int y = 0; y < kHeight; y += down)
+      for (int x = 0; x < kWidth; x += across) {
+        const PixelRect block{x, y, across, down};
+        EXPECT_EQ(intersect(blocks, block) == block, intersect(inside, block) == block) << x << "," << y;
+      }
+    EXPECT_EQ(blocks.width % across + blocks.height % down, 0);
+  }
 }
 
 // swscale is another way to the same codes, but for the interpolation of chroma, which an even picture has none of. 8-bit grey it
