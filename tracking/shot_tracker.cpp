@@ -19,10 +19,16 @@ const TagObservation& ShotTracker::add(const LumaView& luma, double time_s) {
   frames_.push_back({time_s, {}});
   appearances_.emplace_back();
   record(frames_.size() - 1, last_);
+  // Nothing is looked back for where the last three frames have been seen, nor beyond them.
+  const auto is_seen = [&](std::size_t ago) {
+    return frames_.size() > ago && !frames_[frames_.size() - 1 - ago].candidates.empty();
+  };
+  if (is_seen(0) && is_seen(1) && is_seen(2)) {
+    kept_.clear();
+    return last_;
+  }
   keep(luma, time_s);
-  const std::size_t count = frames_.size();
-  const auto seen = [&](std::size_t frame) { return !frames_[frame].candidates.empty(); };
-  if (count >= 3 && seen(count - 1) && seen(count - 2) && !seen(count - 3)) look_back();
+  if (is_seen(0) && is_seen(1) && frames_.size() >= 3) look_back();
   return last_;
 }
 

@@ -89,8 +89,9 @@ struct Tracker::Impl {
     return measurement;
   }
 
-  /// From corners that only the detector has seen, either planar pose may be the right one: the one that explains more is kept.
-  /// A pose that has to call part of the tag occluded explains less, however little noise it leaves elsewhere.
+  /// From corners that only the detector has seen, either planar pose may be the right one. The likelier is taken where it
+  /// explains the whole tag; else the one that explains more: a pose that has to call part of the tag occluded explains less,
+  /// however little noise it leaves elsewhere.
   std::optional<Measurement> refined_from_both(const LumaView& luma, const std::vector<PoseHypothesis>& poses,
                                                const RigidTransform& this_from_tag) {
     constexpr double kOccluded = 0.1;
@@ -102,6 +103,7 @@ struct Tracker::Impl {
     for (const PoseHypothesis& pose : poses) {
       auto fit = refined(luma, pose.camera_from_tag * this_from_tag, kDetectedErrorPx);
       if (fit && (!best || is_better(*fit->appearance, *best->appearance))) best = std::move(fit);
+      if (best && best->appearance->occluded_share < kOccluded) break;
     }
     return best;
   }

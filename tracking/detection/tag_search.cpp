@@ -107,7 +107,7 @@ std::optional<Sighting> TagSearch::near(const LumaView& luma, const RigidTransfo
 
 std::optional<Sighting> TagSearch::anywhere(const LumaView& luma, const std::optional<RigidTransform>& predicted) {
   const PixelRect all{0, 0, luma.width_px, luma.height_px};
-  for (const double decimate : {kDecimate, 1.0}) {
+  for (const double decimate : {2 * kDecimate, kDecimate, 1.0}) {
     const std::vector<Sighting> found = sightings(luma, all, decimate);
     if (const auto chosen = predicted ? nearest(found, *predicted) : most_trusted(found)) return chosen;
   }

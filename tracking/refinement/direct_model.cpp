@@ -22,13 +22,15 @@ struct Sums {
   double normal[kParameters][kColumns] = {};
 
   /// `gradient` ends with the residual; parameters before `first` have none.
-  void add(const double (&gradient)[kColumns], double weight, int first) {
-    for (int i = first; i < kParameters; ++i) {
-      const double weighted = weight * gradient[i];
-      for (int j = i & ~1; j < kColumns; ++j) normal[i][j] += weighted * gradient[j];
-    }
-  }
+  void add(const double (&gradient)[kColumns], double weight, int first);
 };
+
+[[gnu::target_clones("avx2", "default")]] void Sums::add(const double (&gradient)[kColumns], double weight, int first) {
+  for (int i = first; i < kParameters; ++i) {
+    const double weighted = weight * gradient[i];
+    for (int j = i & ~1; j < kColumns; ++j) normal[i][j] += weighted * gradient[j];
+  }
+}
 
 struct Sampled {
   PlanePoint point;

@@ -17,14 +17,19 @@ constexpr std::size_t kMaxPixels = 2200, kMaxCoarsePixels = 1000;
 constexpr double kCoarseCellPx = 3;                 ///< blocks leave cells at least this large: smaller ones run together
 constexpr double kLossSigmas = 4;                   ///< the loss keeps 93 % of least squares' efficiency on Gaussian noise
 constexpr double kMinNoiseCodes = 0.35;             ///< rounding alone leaves 0.29
-constexpr double kNearPx = 0.1, kSettledPx = 0.01;  ///< Gauss-Newton's next step would be a tenth of that
 /// What a frame's own fit may say against the usual: blur changes by a few px², light across a tag by a third.
 constexpr double kBlurPrior_px2 = 2, kLightPrior = 0.3;
 /// The other planar pose is ruled out without a fit of its own where its corners are this far off, or its pixels speak this much
 /// against it.
-constexpr double kRuledOutPx = 2.5, kRuledOutLogOdds = 60;
+constexpr double kRuledOutPx = 2.5, kRuledOutLogOdds = 100;
 /// Residuals of neighbouring pixels go together (compression, the print's own faults): a pixel counts as this much of one.
 constexpr double kIndependence = 0.5;
+
+/// The steps at which minimising ends, in the first round and in those that follow: the next would be a fifth of that.
+struct Precision {
+  double first_px = 0.1, then_px = 0.01;
+};
+constexpr Precision kCoarse{0.5, 0.3};  ///< what a fit to single pixels starts from
 
 constexpr std::size_t kSparse = 4;  ///< every so many pixels will do for a first impression
 
@@ -166,7 +171,7 @@ struct DirectRefiner::Impl {
 
   /// Minimises with the noise that the start has, then with what is left of it, as long as it falls: under a lenient loss, what
   /// occludes a part of the tag still pulls.
-  Fit solve(const DirectModel& model, const DirectParameters& start) const {
+  Fit solve(const DirectModel& model, const DirectParameters& start, const Precision& precision = {}) const {
     constexpr int kMaxRounds = 6;
     constexpr double kFallen = 0.9;
     const double least = kMinNoiseCodes / response->codes_per_unit();
@@ -175,7 +180,7 @@ struct DirectRefiner::Impl {
     fit.is_light_even = std::none_of(start.light.begin(), start.light.end(), has_slope);
     fit.linearized = linearize(model, fit.at, start.blur_px2, fit.noise, fit.is_light_even);
     for (int round = 0; round < kMaxRounds; ++round) {
-      minimize(model, fit, start.blur_px2, round == 0 ? kNearPx : kSettledPx);
+      minimize(model, fit, start.blur_px2, round == 0 ? precision.first_px : precision.then_px);
       const double noise = robust_noise(fit.linearized.residuals, least);
       const bool has_fallen = noise < kFallen * fit.noise;
       if (round > 0 && !has_fallen) break;
@@ -230,7 +235,7 @@ struct DirectRefiner::Impl {
     at.blur_px2 = {at.blur_px2.xx + box_px2, at.blur_px2.xy, at.blur_px2.yy + box_px2};
     const auto model = model_with_light(luma, at, {at.blur_px2, error_px / 2, block, kMaxCoarsePixels});
     if (!model) return false;
-    at = solve(*model, at).at;
+    at = solve(*model, at, kCoarse).at;
     at.blur_px2 = {std::max(at.blur_px2.xx - box_px2, 0.1), at.blur_px2.xy, std::max(at.blur_px2.yy - box_px2, 0.1)};
     return true;
   }

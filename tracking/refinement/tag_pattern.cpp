@@ -13,6 +13,12 @@ constexpr int kPaperCells = 3;        ///< white around the print, as far as any
 constexpr double kReachSigmas = 3.5;  ///< what lies beyond adds less than 3e-4
 constexpr int kMaxLines = 16;         ///< within reach along one axis; a blur that wide leaves nothing to see
 
+/// std::floor without a library call, which is most of what a plateau costs.
+int floor_of(double x) {
+  const int whole = static_cast<int>(x);
+  return whole - (x < whole);
+}
+
 /// The grid lines of one axis that are within reach.
 struct Lines {
   double variance, sigma;
@@ -22,8 +28,8 @@ struct Lines {
 
   Lines(double place, double blur) : variance(blur), sigma(std::sqrt(blur)) {
     const double reach = kReachSigmas * sigma;
-    first = static_cast<int>(std::ceil(place - reach));
-    count = std::clamp(static_cast<int>(std::floor(place + reach)) - first + 1, 0, kMaxLines);
+    first = -floor_of(reach - place);
+    count = std::clamp(floor_of(place + reach) - first + 1, 0, kMaxLines);
     for (int i = 0; i < count; ++i) {
       at[i] = (place - (first + i)) / sigma;
       normal[i] = tracking::normal(at[i]);
@@ -64,7 +70,8 @@ float TagPattern::white(int column, int row) const {
 }
 
 TagPattern::Neighbourhood TagPattern::around(const glm::dvec2& cell, const glm::dvec2& reach) const {
-  const glm::ivec2 from(glm::floor(cell - reach)), to(glm::floor(cell + reach));
+  const glm::ivec2 from(floor_of(cell.x - reach.x), floor_of(cell.y - reach.y));
+  const glm::ivec2 to(floor_of(cell.x + reach.x), floor_of(cell.y + reach.y));
   const float first = white(from.x, from.y);
   Neighbourhood result = Neighbourhood::plateau;
   for (int row = from.y; row <= to.y; ++row)
@@ -77,7 +84,9 @@ TagPattern::Neighbourhood TagPattern::around(const glm::dvec2& cell, const glm::
 }
 
 PatternSample TagPattern::sample(const glm::dvec2& cell, const Covariance2& blur) const {
+  constexpr double kFar = 1e6;
   PatternSample result;
+  if (!(std::abs(cell.x) < kFar && std::abs(cell.y) < kFar)) return result;
   const Lines columns(cell.x, blur.xx), rows(cell.y, blur.yy);
   const double sigma_u = columns.sigma, sigma_v = rows.sigma;
   float cells[kMaxLines + 1][kMaxLines + 1];

@@ -1,38 +1,46 @@
 #include "tracking/refinement/tag_view.hpp"
 
 namespace catchlight::tracking {
+namespace {
+
+glm::dmat3 cell_from_px(const glm::dvec2& focal_px, const glm::dvec2& center_px, const RigidTransform& camera_from_tag,
+                        double cell_m, double half_size_m) {
+  const glm::dmat3 slopes_from_px{
+      {1 / focal_px.x, 0, 0}, {0, 1 / focal_px.y, 0}, {-center_px.x / focal_px.x, -center_px.y / focal_px.y, 1}};
+  const glm::dmat3 plane_from_slopes =
+      glm::inverse(glm::dmat3(camera_from_tag.rotation[0], camera_from_tag.rotation[1], camera_from_tag.translation_m));
+  const double half_cells = half_size_m / cell_m;
+  const glm::dmat3 cell_from_plane{{1 / cell_m, 0, 0}, {0, -1 / cell_m, 0}, {half_cells, half_cells, 1}};
+  return cell_from_plane * plane_from_slopes * slopes_from_px;
+}
+
+}  // namespace
 
 TagView::TagView(const CameraModel& camera, const RigidTransform& camera_from_tag, double size_m, int cells_across)
     : focal_px_(camera.fx_px, camera.fy_px),
+      per_focal_px_(1.0 / focal_px_),
       center_px_(camera.cx_px, camera.cy_px),
       camera_from_tag_(camera_from_tag),
-      plane_from_slopes_(
-          glm::inverse(glm::dmat3(camera_from_tag.rotation[0], camera_from_tag.rotation[1], camera_from_tag.translation_m))),
       cell_m_(size_m / cells_across),
-      half_size_m_(size_m / 2) {}
+      half_size_m_(size_m / 2),
+      cell_from_px_(cell_from_px(focal_px_, center_px_, camera_from_tag, cell_m_, half_size_m_)) {}
 
 std::optional<PlanePoint> TagView::at(const glm::dvec2& ideal_px) const {
-  const glm::dvec2 slope = (ideal_px - center_px_) / focal_px_;
-  const glm::dvec3 plane = plane_from_slopes_ * glm::dvec3(slope, 1);  // (x, y, 1) / depth
-  if (!(plane.z > 0)) return std::nullopt;
-  const double depth_m = 1 / plane.z;
-  const glm::dvec2 on_tag_m = glm::dvec2(plane) * depth_m;
-  const glm::dvec3 right = camera_from_tag_.rotation[0], up = camera_from_tag_.rotation[1];
+  const glm::dvec3 over_depth = cell_from_px_ * glm::dvec3(ideal_px, 1);
+  if (!(over_depth.z > 0)) return std::nullopt;
+  const double depth_m = 1 / over_depth.z;
   PlanePoint point;
-  point.cell = {(on_tag_m.x + half_size_m_) / cell_m_, (half_size_m_ - on_tag_m.y) / cell_m_};
-  point.point_camera_m = glm::dvec3(slope, 1) * depth_m;
-  const double scale = cell_m_ / depth_m;
-  const glm::dvec2 along_u = focal_px_ * (glm::dvec2(right) - slope * right.z) * scale;
-  const glm::dvec2 along_v = -focal_px_ * (glm::dvec2(up) - slope * up.z) * scale;
-  const double determinant = along_u.x * along_v.y - along_u.y * along_v.x;
-  point.cell_per_px = glm::dmat2(along_v.y, -along_u.y, -along_v.x, along_u.x) / determinant;
+  point.cell = glm::dvec2(over_depth) * depth_m;
+  point.point_camera_m = glm::dvec3((ideal_px - center_px_) * per_focal_px_, 1) * depth_m;
+  for (int i = 0; i < 2; ++i)
+    point.cell_per_px[i] = (glm::dvec2(cell_from_px_[i]) - point.cell * cell_from_px_[i].z) * depth_m;
   return point;
 }
 
 std::optional<glm::dvec2> TagView::cell_at(const glm::dvec2& ideal_px) const {
-  const glm::dvec3 plane = plane_from_slopes_ * glm::dvec3((ideal_px - center_px_) / focal_px_, 1);
-  if (!(plane.z > 0)) return std::nullopt;
-  return glm::dvec2(plane.x / plane.z + half_size_m_, half_size_m_ - plane.y / plane.z) / cell_m_;
+  const glm::dvec3 over_depth = cell_from_px_ * glm::dvec3(ideal_px, 1);
+  if (!(over_depth.z > 0)) return std::nullopt;
+  return glm::dvec2(over_depth) / over_depth.z;
 }
 
 std::optional<glm::dvec2> TagView::ideal_px(const glm::dvec2& cell) const {

@@ -30,10 +30,10 @@ class TagView {
   std::optional<glm::dvec2> ideal_px(const glm::dvec2& cell) const;
 
  private:
-  glm::dvec2 focal_px_, center_px_;
+  glm::dvec2 focal_px_, per_focal_px_, center_px_;
   RigidTransform camera_from_tag_;
-  glm::dmat3 plane_from_slopes_;
   double cell_m_, half_size_m_;
+  glm::dmat3 cell_from_px_;  ///< of (x, y, 1): the cell and 1, all over the depth in metres
 };
 
 /// A covariance in pixels, seen in cells.
