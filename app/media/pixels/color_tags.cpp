@@ -115,4 +115,13 @@ CodeFromRgb::CodeFromRgb(const AVFrame& picture, const PixelLayout& layout) : ma
   offset_ = {full ? 0 : 16 * step, 128 * step, 128 * step};
 }
 
+void CodeFromRgb::row(const float* rgba, int count, const std::array<double*, 3>& codes) const {
+  for (int i = 0; i < 3; ++i) {
+    const double red = matrix_[0][i], green = matrix_[1][i], blue = matrix_[2][i], zero = offset_[i];
+    double* to = codes[static_cast<std::size_t>(i)];
+    for (int x = 0; x < count; ++x)
+      to[x] = red * code_of(rgba[4 * x]) + green * code_of(rgba[4 * x + 1]) + blue * code_of(rgba[4 * x + 2]) + zero;
+  }
+}
+
 }  // namespace catchlight::app

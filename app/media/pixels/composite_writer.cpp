@@ -1,5 +1,10 @@
 #include "app/media/pixels/composite_writer.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
 #include "app/media/pixels/color_tags.hpp"
 #include "catchlight/color.hpp"
 
@@ -21,19 +26,16 @@ class ChangedPixels {
   }
   glm::dvec3 raw(int x, int y) const { return {at(x, y)[0], at(x, y)[1], at(x, y)[2]}; }
 
-  // What is not a number becomes black rather than undefined.
-  glm::dvec3 rgb(int x, int y) const {
-    const auto clamped = [](float code) { return code > 0 ? std::min(static_cast<double>(code), 1.0) : 0.0; };
-    return {clamped(at(x, y)[0]), clamped(at(x, y)[1]), clamped(at(x, y)[2])};
-  }
+  glm::dvec3 rgb(int x, int y) const { return {code_of(at(x, y)[0]), code_of(at(x, y)[1]), code_of(at(x, y)[2])}; }
 
- private:
   const float* at(int x, int y) const {
     const PixelRect& rect = composite_.rect;
     const auto pixel =
         static_cast<std::size_t>(y - rect.y) * static_cast<std::size_t>(rect.width) + static_cast<std::size_t>(x - rect.x);
     return composite_.rgba.data() + 4 * pixel;
   }
+
+ private:
   const Composite& composite_;
 };
 
@@ -60,80 +62,7 @@ void for_each_pixel(const PixelRect& rect, Visit visit) {
   }
 }
 
-class CompositeWriter {
- public:
-  CompositeWriter(AVFrame& picture, const PixelLayout& layout, const Composite& composite)
-      : picture_(picture),
-        layout_(layout),
-        pixels_(composite),
-        rect_(intersect(composite.rect, {0, 0, picture.width, picture.height})),
-        code_from_rgb_(picture, layout) {}
-
-  void write_values() const {
-    for (int i = 0; i < components(); ++i) {
-      const SamplePlane plane(picture_, layout_, i);
-      for_each_pixel(rect_, [&](int x, int y) {
-        if (!pixels_.changed(x, y)) return;
-        const glm::dvec3 rgb = pixels_.raw(x, y);
-        plane.set_value(x, y, static_cast<float>(layout_.model == ColorModel::gray ? glm::dot(kLuminanceWeights, rgb) : rgb[i]));
-      });
-    }
-  }
-
-  // The components that have a sample for every pixel.
-  void write_full_resolution() const {
-    for (int i = 0; i < (layout_.is_subsampled() ? 1 : components()); ++i) {
-      const SamplePlane plane(picture_, layout_, i);
-      for_each_pixel(rect_, [&](int x, int y) {
-        if (pixels_.changed(x, y)) plane.set_code(x, y, rounded(code_from_rgb_(pixels_.rgb(x, y))[i]));
-      });
-    }
-  }
-
-  void write_subsampled(const Plate& plate) const {
-    const PixelRect blocks = blocks_of(layout_, rect_, picture_.width, picture_.height);
-    const int block_width = 1 << layout_.chroma_shift_x, block_height = 1 << layout_.chroma_shift_y;
-    for (int y = blocks.y; y < blocks.y + blocks.height; y += block_height) {
-      for (int x = blocks.x; x < blocks.x + blocks.width; x += block_width) {
-        write_chroma(plate, intersect({x, y, block_width, block_height}, {0, 0, picture_.width, picture_.height}));
-      }
-    }
-  }
-
- private:
-  int components() const { return layout_.model == ColorModel::gray ? 1 : 3; }
-
-  int rounded(double code) const { return static_cast<int>(std::lround(std::clamp(code, 0.0, code_from_rgb_.max_code()))); }
-
-  // `block`: the pixels that share one chroma sample.
-  void write_chroma(const Plate& plate, const PixelRect& block) const {
-    int changed = 0;
-    glm::dvec3 sum(0.0), moved(0.0);
-    for_each_pixel(block, [&](int x, int y) {
-      if (!pixels_.changed(x, y)) return;
-      ++changed;
-      const glm::dvec3 codes = code_from_rgb_(pixels_.rgb(x, y));
-      sum += codes;
-      moved += codes - code_from_rgb_(plate_rgb(plate, x, y));
-    });
-    if (changed == 0) return;
-    const int pixels = block.width * block.height;
-    for (int i = 1; i < 3; ++i) {
-      const SamplePlane plane(picture_, layout_, i);
-      const int x = block.x >> layout_.chroma_shift_x, y = block.y >> layout_.chroma_shift_y;
-      plane.set_code(x, y, rounded(changed == pixels ? sum[i] / pixels : plane.code(x, y) + moved[i] / pixels));
-    }
-  }
-
-  AVFrame& picture_;
-  const PixelLayout& layout_;
-  ChangedPixels pixels_;
-  PixelRect rect_;
-  CodeFromRgb code_from_rgb_;
-};
-
-}  // namespace
-
+/// The smallest rectangle of whole chroma samples around `rect`, within the frame.
 PixelRect blocks_of(const PixelLayout& layout, const PixelRect& rect, int width_px, int height_px) {
   const int mask_x = (1 << layout.chroma_shift_x) - 1, mask_y = (1 << layout.chroma_shift_y) - 1;
   const int x = rect.x & ~mask_x, y = rect.y & ~mask_y;
@@ -141,14 +70,152 @@ PixelRect blocks_of(const PixelLayout& layout, const PixelRect& rect, int width_
   return intersect({x, y, right - x, bottom - y}, {0, 0, width_px, height_px});
 }
 
-void write_composite(AVFrame& picture, const PixelLayout& layout, const Composite& composite, const Plate& plate) {
-  const CompositeWriter writer(picture, layout, composite);
-  if (layout.is_float) {
-    writer.write_values();
-    return;
+/// Unrounded codes of one row's changed pixels.
+struct CodeRow {
+  explicit CodeRow(int width) : changed(static_cast<std::size_t>(width)) {
+    codes.fill(std::vector<double>(static_cast<std::size_t>(width)));
   }
-  writer.write_full_resolution();
-  if (layout.is_subsampled()) writer.write_subsampled(plate);
+  std::vector<std::uint8_t> changed;
+  std::array<std::vector<double>, 3> codes;
+};
+
+/// Sums of the codes of the pixels that share a chroma sample, and how many of them changed: one row of such blocks.
+struct BlockRow {
+  explicit BlockRow(int blocks) : changed(static_cast<std::size_t>(blocks)) {
+    sums.fill(std::vector<double>(static_cast<std::size_t>(blocks)));
+  }
+
+  void add(const CodeRow& row, int shift) {
+    for (std::size_t x = 0; x < row.changed.size(); ++x) changed[x >> shift] += row.changed[x];
+    for (std::size_t i = 0; i < 2; ++i) {
+      const std::vector<double>& codes = row.codes[i + 1];
+      for (std::size_t x = 0; x < codes.size(); ++x) sums[i][x >> shift] += codes[x];
+    }
+  }
+
+  std::vector<int> changed;
+  std::array<std::vector<double>, 2> sums;
+};
+
+class CompositeWriter {
+ public:
+  CompositeWriter(AVFrame& picture, const PixelLayout& layout, const Composite& composite)
+      : picture_(picture),
+        layout_(layout),
+        pixels_(composite),
+        rect_(intersect(composite.rect, {0, 0, picture.width, picture.height})),
+        code_from_rgb_(picture, layout) {
+    for (int i = 0; i < components(); ++i) planes_.emplace_back(picture, layout, i);
+  }
+
+  void write_values() const {
+    for (int i = 0; i < components(); ++i) {
+      for_each_pixel(rect_, [&](int x, int y) {
+        if (!pixels_.changed(x, y)) return;
+        const glm::dvec3 rgb = pixels_.raw(x, y);
+        planes_[static_cast<std::size_t>(i)].set_value(
+            x, y, static_cast<float>(layout_.model == ColorModel::gray ? glm::dot(kLuminanceWeights, rgb) : rgb[i]));
+      });
+    }
+  }
+
+  /// Formats with a sample of every component for every pixel.
+  void write_full_resolution() const {
+    CodeRow row(rect_.width);
+    for (int y = rect_.y; y < rect_.y + rect_.height; ++y) {
+      read(rect_.x, y, row);
+      for (std::size_t i = 0; i < planes_.size(); ++i)
+        planes_[i].set_codes(rect_.x, y, row.codes[i], row.changed, code_from_rgb_.max_code());
+    }
+  }
+
+  /// Formats whose pixels share chroma samples. Of blocks that changed in part the plate is wanted.
+  void write_subsampled(const PlateReader& plate_reader) const {
+    const PixelRect blocks = blocks_of(layout_, rect_, picture_.width, picture_.height);
+    const int block_height = 1 << layout_.chroma_shift_y;
+    std::vector<PixelRect> partial;
+    for (int y = blocks.y; y < blocks.y + blocks.height; y += block_height)
+      write_block_row({blocks.x, y, blocks.width, std::min(block_height, picture_.height - y)}, partial);
+    if (partial.empty()) return;
+    PixelRect bounds;
+    for (const PixelRect& block : partial) bounds = unite(bounds, block);
+    const Plate plate = plate_reader(bounds);
+    for (const PixelRect& block : partial) move_chroma(plate, block);
+  }
+
+ private:
+  int components() const { return layout_.model == ColorModel::gray ? 1 : 3; }
+
+  int rounded(double code) const { return static_cast<int>(std::lround(std::clamp(code, 0.0, code_from_rgb_.max_code()))); }
+
+  /// The codes of the row's pixels from column `x` on; those outside the composite's rectangle have not changed.
+  void read(int x, int y, CodeRow& row) const {
+    const int width = static_cast<int>(row.changed.size());
+    const int begin = std::max(rect_.x - x, 0), end = std::min(rect_.x + rect_.width - x, width);
+    std::fill(row.changed.begin(), row.changed.end(), std::uint8_t{0});
+    if (y < rect_.y || y >= rect_.y + rect_.height) return;
+    const float* rgba = pixels_.at(x + begin, y);
+    for (int i = 0; i < end - begin; ++i) row.changed[static_cast<std::size_t>(begin + i)] = rgba[4 * i + 3] > 0.5f;
+    code_from_rgb_.row(rgba, end - begin,
+                       {row.codes[0].data() + begin, row.codes[1].data() + begin, row.codes[2].data() + begin});
+  }
+
+  /// Luma of a row of blocks, and the chroma of those that changed as a whole; adds those that changed in part to `partial`.
+  void write_block_row(const PixelRect& area, std::vector<PixelRect>& partial) const {
+    const int shift = layout_.chroma_shift_x, block_width = 1 << shift;
+    CodeRow row(area.width);
+    BlockRow blocks((area.width + block_width - 1) >> shift);
+    for (int y = area.y; y < area.y + area.height; ++y) {
+      read(area.x, y, row);
+      planes_[0].set_codes(area.x, y, row.codes[0], row.changed, code_from_rgb_.max_code());
+      blocks.add(row, shift);
+    }
+    for (std::size_t i = 0; i < blocks.changed.size(); ++i) {
+      if (blocks.changed[i] == 0) continue;
+      const PixelRect block = intersect({area.x + (static_cast<int>(i) << shift), area.y, block_width, area.height}, area);
+      const int pixels = block.width * block.height;
+      if (blocks.changed[i] == pixels)
+        set_chroma(block, blocks.sums[0][i] / pixels, blocks.sums[1][i] / pixels);
+      else
+        partial.push_back(block);
+    }
+  }
+
+  void set_chroma(const PixelRect& block, double blue, double red) const {
+    const int x = block.x >> layout_.chroma_shift_x, y = block.y >> layout_.chroma_shift_y;
+    planes_[1].set_code(x, y, rounded(blue));
+    planes_[2].set_code(x, y, rounded(red));
+  }
+
+  /// `block`: the pixels that share one chroma sample, of which some changed.
+  void move_chroma(const Plate& plate, const PixelRect& block) const {
+    glm::dvec3 moved(0.0);
+    for_each_pixel(block, [&](int x, int y) {
+      if (pixels_.changed(x, y)) moved += code_from_rgb_(pixels_.rgb(x, y)) - code_from_rgb_(plate_rgb(plate, x, y));
+    });
+    const int pixels = block.width * block.height;
+    const int x = block.x >> layout_.chroma_shift_x, y = block.y >> layout_.chroma_shift_y;
+    set_chroma(block, planes_[1].code(x, y) + moved[1] / pixels, planes_[2].code(x, y) + moved[2] / pixels);
+  }
+
+  AVFrame& picture_;
+  const PixelLayout& layout_;
+  ChangedPixels pixels_;
+  PixelRect rect_;
+  CodeFromRgb code_from_rgb_;
+  std::vector<SamplePlane> planes_;
+};
+
+}  // namespace
+
+void write_composite(AVFrame& picture, const PixelLayout& layout, const Composite& composite, const PlateReader& plate) {
+  const CompositeWriter writer(picture, layout, composite);
+  if (layout.is_float)
+    writer.write_values();
+  else if (layout.is_subsampled())
+    writer.write_subsampled(plate);
+  else
+    writer.write_full_resolution();
 }
 
 }  // namespace catchlight::app

@@ -74,13 +74,24 @@ bool is_deep_rgb(int format) {
   return layout && layout->model == ColorModel::rgb && layout->depth() == 16 && !layout->is_float;
 }
 
+std::uint16_t multiplied(int code, double factor) {
+  return static_cast<std::uint16_t>(std::min(code * factor + 0.5, 65535.0));
+}
+
 void multiply_colors(AVFrame& rgb, double factor) {
   const PixelLayout layout = pixel_layout(rgb.format).value();
   for (int i = 0; i < 3; ++i) {
     const SamplePlane plane(rgb, layout, i);
+    const Component& component = layout.components[static_cast<std::size_t>(i)];
     for (int y = 0; y < rgb.height; ++y) {
-      for (int x = 0; x < rgb.width; ++x)
-        plane.set_code(x, y, static_cast<int>(std::min(plane.code(x, y) * factor + 0.5, 65535.0)));
+      if (layout.big_endian) {
+        for (int x = 0; x < rgb.width; ++x) plane.set_code(x, y, multiplied(plane.code(x, y), factor));
+        continue;
+      }
+      std::uint8_t* row = rgb.data[component.plane] + static_cast<std::ptrdiff_t>(y) * rgb.linesize[component.plane];
+      auto* codes = reinterpret_cast<std::uint16_t*>(row + component.offset_bytes);
+      const int step = component.step_bytes / 2;
+      for (int x = 0; x < rgb.width; ++x) codes[x * step] = multiplied(codes[x * step], factor);
     }
   }
 }

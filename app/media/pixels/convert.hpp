@@ -12,7 +12,7 @@ namespace catchlight::app {
 /// tags say so.
 FramePtr convert(const AVFrame& picture, AVPixelFormat format);
 
-/// A part as packed RGB of 8 or 16 bits. `rect` must begin and end on whole chroma samples or at the frame's edge.
+/// A part as RGB of 8 or 16 bits, packed or in planes. `rect` must begin and end on whole chroma samples or at the frame's edge.
 FramePtr convert_part(const AVFrame& picture, const PixelRect& rect, AVPixelFormat rgb_format);
 
 /// The one of `formats` (ended by AV_PIX_FMT_NONE) that is `format` or loses least.

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 #include <optional>
+#include <vector>
 
 struct AVFrame;
 
@@ -42,6 +43,9 @@ class SamplePlane {
     return static_cast<int>((wide_ ? wide_code(at) : *at) >> component_.shift & mask_);
   }
   void set_code(int x, int y, int value) const;
+
+  /// Sets the codes of the row's samples from column `x` on that changed (1), rounded and kept within 0 to `max_code`.
+  void set_codes(int x, int y, const std::vector<double>& codes, const std::vector<std::uint8_t>& changed, double max_code) const;
 
   float value(int x, int y) const {
     float value;

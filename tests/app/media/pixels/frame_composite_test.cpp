@@ -84,6 +84,19 @@ TEST_P(EveryFormat, SamplesOfUnchangedPixelsAreTheDecodersOwn) {
   EXPECT_GT(touched, 100);  // about 139 pixels changed, in at least one component each
 }
 
+/// The rectangle says where to look, not what to write: however it lies to the blocks of pixels that share a chroma sample.
+TEST_P(EveryFormat, ALargerRectangleOfTheSamePixelsWritesTheSame) {
+  const Frame before = frame_of(noise_frame(GetParam(), kWidth, kHeight, 3));
+  const Composite small = random_composite({5, 7, 33, 21}, 0.7, 11);
+  Composite large;
+  large.rect = {0, 0, kWidth, kHeight};
+  large.rgba.resize(4 * kWidth * kHeight);
+  for (int y = 0; y < small.rect.height; ++y)
+    std::copy_n(small.rgba.begin() + 4 * y * small.rect.width, 4 * small.rect.width,
+                large.rgba.begin() + 4 * ((small.rect.y + y) * kWidth + small.rect.x));
+  EXPECT_EQ(samples_of(before.with_composite(small).picture()), samples_of(before.with_composite(large).picture()));
+}
+
 TEST_P(EveryFormat, TheDecodersFrameItselfStaysAsItWas) {
   const Frame before = frame_of(noise_frame(GetParam(), kWidth, kHeight, 3));
   const auto samples = samples_of(before.picture());
