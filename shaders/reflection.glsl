@@ -21,28 +21,58 @@ vec3 exit_radiance_of(uint vertex, vec3 albedo) {
   return diffuse + albedo * vec3(direct_light_floats[at], direct_light_floats[at + 1u], direct_light_floats[at + 2u]);
 }
 
-// Light that the object sends towards -direction from where a ray met it; its own mirror image is not traced further.
-vec3 object_radiance(RayHit hit, vec3 origin, vec3 direction, float spread, float share) {
+struct SurfaceHit {
+  vec3 normal;
+  float roughness;
+  vec3 sent;    // radiance towards where the ray came from, but for what is mirrored
+  vec3 factor;  // of what is mirrored
+  bool mirrors_on;
+};
+
+SurfaceHit surface_at(RayHit hit, vec3 direction) {
   vec3 w = vec3(1.0 - hit.weights.x - hit.weights.y, hit.weights);
   uvec4 t = hit.triangle;
   SurfaceMaterial m = materials[t.w];
-  vec3 n = normalize(w.x * vertex_vec3(t.x, 1u) + w.y * vertex_vec3(t.y, 1u) + w.z * vertex_vec3(t.z, 1u));
+  SurfaceHit surface;
+  surface.normal = normalize(w.x * vertex_vec3(t.x, 1u) + w.y * vertex_vec3(t.y, 1u) + w.z * vertex_vec3(t.z, 1u));
+  surface.roughness = m.emissive_roughness.a;
   vec3 color = w.x * vertex_vec3(t.x, 2u) + w.y * vertex_vec3(t.y, 2u) + w.z * vertex_vec3(t.z, 2u);
   vec3 albedo = diffuse_albedo(m, color);
   vec3 diffuse = w.x * exit_radiance_of(t.x, albedo) + w.y * exit_radiance_of(t.y, albedo) + w.z * exit_radiance_of(t.z, albedo);
-  vec4 factor = mirror_factor(m, color, brdf_at(-dot(n, direction), m.emissive_roughness.a));
-  float roughness = m.emissive_roughness.a;
-  // The ray stands for a bundle, which the second surface spreads further.
-  float both = sqrt(sqrt(pow(roughness, 4.0) + pow(share, 4.0)));
-  vec3 mirrored = surroundings(origin + hit.distance_m * direction, reflect(direction, n), spread + roughness * roughness, both, true);
-  return diffuse * factor.a + mirrored * factor.rgb + emitted_radiance(m, color, view.exposure.rgb);
+  float n_v = -dot(surface.normal, direction);
+  vec4 factor = mirror_factor(m, color, brdf_at(n_v, surface.roughness));
+  surface.sent = diffuse * factor.a + emitted_radiance(m, color, view.exposure.rgb);
+  surface.factor = factor.rgb;
+  surface.mirrors_on = n_v > 0.0 && max(factor.r, max(factor.g, factor.b)) >= kMinFollowed;
+  return surface;
 }
 
-vec3 radiance_along(vec3 origin, vec3 direction, float spread, float roughness, bool with_lights) {
-  RayHit nearest = RayHit(uvec4(0u), 1e30, vec2(0.0));
-  if (view.options.x > 0) trace(origin, direction, view.probe_in_tag_m.w, nearest);
-  if (nearest.distance_m < 1e30) return object_radiance(nearest, origin, direction, spread, roughness);
-  return surroundings(origin, direction, spread, roughness, with_lights);
+vec3 ray_start(vec3 position, vec3 n) { return position + n * (0.05 * view.probe_in_tag_m.w); }
+
+// Radiance that arrives at `origin` from `direction`. The ray stands for a bundle of half width `spread`, as wide as the lobe of a
+// surface of `roughness`, which surfaces on its way spread further; `share` of such a lobe's width is one ray's. `index`: its number
+// in its lobe.
+vec3 radiance_along(vec3 origin, vec3 direction, float spread, float roughness, float share, int index, bool with_lights) {
+  vec3 sum = vec3(0.0), through = vec3(1.0);
+  for (int bounce = 0; view.options.x > 0; ++bounce) {
+    RayHit hit = RayHit(uvec4(0u), 1e30, vec2(0.0));
+    trace(origin, direction, view.probe_in_tag_m.w, hit);
+    if (hit.distance_m >= 1e30) break;
+    SurfaceHit surface = surface_at(hit, direction);
+    sum += through * surface.sent;
+    through *= surface.factor;
+    vec3 position = origin + hit.distance_m * direction;
+    bool follows = bounce < kMoreBounces && surface.mirrors_on;
+    float of_lobe = follows ? share * surface.roughness : surface.roughness;
+    spread += of_lobe * of_lobe;
+    roughness = wider(roughness, of_lobe);
+    with_lights = true;
+    origin = follows ? ray_start(position, surface.normal) : position;
+    direction = follows ? mirrored_way(direction, surface.normal, surface.roughness, way_from_surface(index, bounce))
+                        : reflect(direction, surface.normal);
+    if (!follows) break;
+  }
+  return sum + through * surroundings(origin, direction, spread, roughness, with_lights);
 }
 
 // Mean radiance over the lobe around the mirror direction. Each ray stands for its share of the lobe: the probe is read at the
@@ -54,10 +84,10 @@ vec3 mirrored_radiance(vec3 position, vec3 n, vec3 to_viewer, float roughness, b
   // Without rays of its own the whole lobe is read from the prefiltered probe, in the mirror direction.
   bool traced = view.options.x > 0;
   float share = traced ? pow(float(rays), -0.25) * roughness : roughness, alpha = traced ? roughness * roughness : 0.0;
-  float spread = share * share + 0.25 * length(dx + dy);
+  float spread = share * share + 0.25 * length(dx + dy), further = pow(max(float(view.options.x), 1.0), -0.25);
   mat3 surface_frame = frame_around(n);
   vec3 viewer = to_viewer * surface_frame, sum = vec3(0.0);
-  vec3 origin = position + n * (0.05 * view.probe_in_tag_m.w);
+  vec3 origin = ray_start(position, n);
   float weights = 0.0;
   for (int i = 0; i < rays; ++i) {
     vec2 u = hammersley(i, rays);
@@ -65,7 +95,7 @@ vec3 mirrored_radiance(vec3 position, vec3 n, vec3 to_viewer, float roughness, b
     float above = dot(direction, n);
     if (above <= 0.0) continue;
     float weight = lobe_weight(above, alpha);
-    sum += weight * radiance_along(origin, normalize(direction), spread, share, with_lights);
+    sum += weight * radiance_along(origin, normalize(direction), spread, share, further, i, with_lights);
     weights += weight;
   }
   return weights > 0.0 ? sum / weights : probe_radiance(mirror, roughness, with_lights);

@@ -103,6 +103,31 @@ PURE mat3 frame_around(vec3 n) {
   return mat3(x, cross(n, x), n);
 }
 
+// Variances of lobes add, and a lobe's is roughness^4.
+PURE float wider(float roughness, float by) {
+  return sqrt(sqrt(roughness * roughness * roughness * roughness + by * by * by * by));
+}
+
+// Metal is followed to metal so often again; from there on the surroundings are all that is mirrored.
+const int kMoreBounces = 2;
+// A surface that mirrors less than this of the light is not followed to the next.
+const float kMinFollowed = 0.1f;
+
+// The choice among a surface's facets of a ray of number `index` in its lobe, where it goes on from the surface that it meets after
+// `bounce` others. Evenly spread over the unit square (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences").
+PURE vec2 way_from_surface(int index, int bounce) {
+  vec2 along = vec2(0.7548776662f, 0.5698402910f), across = vec2(0.3819660113f, 0.6180339887f);
+  return fract(0.5f + float(index + 1) * along + float(bounce) * across);
+}
+
+// Direction of a ray that arrives along `direction` at a rough surface and goes on by the choice `u` among its facets.
+PURE vec3 mirrored_way(vec3 direction, vec3 n, float roughness, vec2 u) {
+  mat3 surface_frame = frame_around(n);
+  vec3 facet = surface_frame * visible_normal(-direction * surface_frame, roughness * roughness, disc_point(u));
+  vec3 sampled = reflect(direction, facet);
+  return dot(sampled, n) > 0.0f ? normalize(sampled) : reflect(direction, n);
+}
+
 #ifdef __cplusplus
 #undef PURE
 }  // namespace catchlight::render::shading

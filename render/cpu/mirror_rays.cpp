@@ -9,24 +9,7 @@
 namespace catchlight::render {
 namespace {
 
-constexpr int kMoreBounces = 2;
-/// A surface that mirrors less than this of the light is not followed to the next.
-constexpr float kMinFollowed = 0.1f;
 constexpr int kMaxSkins = 4;
-
-/// Evenly spread over the unit square (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences").
-glm::vec2 way_from_surface(int index, int bounce) {
-  const glm::vec2 along(0.7548776662f, 0.5698402910f), across(0.3819660113f, 0.6180339887f);
-  return glm::fract(0.5f + static_cast<float>(index + 1) * along + static_cast<float>(bounce) * across);
-}
-
-float pow4(float x) {
-  return x * x * x * x;
-}
-
-float wider(float a, float b) {
-  return std::sqrt(std::sqrt(pow4(a) + pow4(b)));
-}
 
 }  // namespace
 
@@ -105,22 +88,20 @@ bool MirrorRays::meet(Walk& walk, const RayStream& hits, std::size_t at, MirrorR
   ray.radiance += walk.through * ((exit + shading::diffuse_albedo(m, color) * direct) * factor.w +
                                   shading::emitted_radiance(m, color, exposure_));
   walk.through *= glm::vec3(factor);
-  const glm::vec3 mirror = glm::reflect(walk.direction, normal), position = walk.origin_m + hits.far[at] * walk.direction;
-  const bool follows = bounce < kMoreBounces && std::max({factor.x, factor.y, factor.z}) >= kMinFollowed && n_v > 0;
+  const glm::vec3 position = walk.origin_m + hits.far[at] * walk.direction;
+  const bool follows =
+      bounce < shading::kMoreBounces && std::max({factor.x, factor.y, factor.z}) >= shading::kMinFollowed && n_v > 0;
   if (!follows) {
-    ray.radiance += walk.through * around_->radiance(position, mirror, walk.spread + roughness * roughness,
-                                                     wider(roughness, walk.roughness), true);
+    ray.radiance +=
+        walk.through * around_->radiance(position, glm::reflect(walk.direction, normal), walk.spread + roughness * roughness,
+                                         shading::wider(roughness, walk.roughness), true);
     return false;
   }
-  const glm::mat3 frame = shading::frame_around(normal);
-  const glm::vec3 facet = frame * shading::visible_normal(-walk.direction * frame, roughness * roughness,
-                                                          shading::disc_point(way_from_surface(ray.index, bounce)));
-  const glm::vec3 sampled = glm::reflect(walk.direction, facet);
-  walk.direction = glm::dot(sampled, normal) > 0 ? glm::normalize(sampled) : mirror;
+  walk.direction = shading::mirrored_way(walk.direction, normal, roughness, shading::way_from_surface(ray.index, bounce));
   walk.origin_m = start(position, normal);
   const float share = share_ * roughness;
   walk.spread += share * share;
-  walk.roughness = wider(share, walk.roughness);
+  walk.roughness = shading::wider(share, walk.roughness);
   return true;
 }
 
