@@ -1,3 +1,8 @@
+#include <cstdlib>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include "app/commands/commands.hpp"
 
 namespace {
@@ -18,8 +23,19 @@ constexpr Command kCommands[] = {
     {"params", "List every parameter of a scene", set_up_params},
 };
 
+/// Buffers of a frame's size are made and let go for every frame. By default each goes back to the kernel, which zeroes it page
+/// by page for the next one.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int kMost = 256 << 20;
+  mallopt(M_MMAP_THRESHOLD, kMost);
+  mallopt(M_TRIM_THRESHOLD, kMost);
+#endif
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_freed_memory();
   return run_command_line(kCommands, argc, argv);
 }

@@ -10,7 +10,6 @@ namespace catchlight::render {
 namespace {
 
 constexpr double kMinMotion_px = 0.5, kMinDefocus_px2 = 1e-6;
-constexpr double kInvisible = 1e-5;  ///< share of a Gaussian in its tail
 
 }  // namespace
 
@@ -44,11 +43,11 @@ MotionField fit_motion(const CameraModel& camera, const DistortionLimit& limit, 
   return field;
 }
 
-std::vector<float> discrete_gaussian(double variance) {
+std::vector<float> discrete_gaussian(double variance, double invisible) {
   const double t = std::clamp(variance, 0.0, kMaxDefocus_px2);
   std::vector<double> weights;
   double sum = 0;
-  for (int n = 0; n < DEFOCUS_TAPS && 1 - sum > kInvisible; ++n) {
+  for (int n = 0; n < DEFOCUS_TAPS && 1 - sum > invisible; ++n) {
     weights.push_back(std::exp(-t) * std::cyl_bessel_i(static_cast<double>(n), t));
     sum += weights.back() * (n == 0 ? 1 : 2);
   }

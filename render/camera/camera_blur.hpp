@@ -28,8 +28,9 @@ MotionField fit_motion(const CameraModel& camera, const DistortionLimit& limit, 
                        const TagMotion& motion, std::span<const glm::dvec3> points_tag_m);
 
 /// e^-t I_n(t) for n = 0, 1, ...: the Gaussian of samples, whose variance is exactly t and which applied twice is that of 2 t
-/// (Lindeberg 1990, "Scale-space for discrete signals"). Ends where it is invisible; with its mirror it sums to 1.
-std::vector<float> discrete_gaussian(double variance);
+/// (Lindeberg 1990, "Scale-space for discrete signals"). Ends where less than `invisible` of it is left; with its mirror it sums
+/// to 1.
+std::vector<float> discrete_gaussian(double variance, double invisible = 1e-5);
 
 inline constexpr double kMaxDefocus_px2 = 400, kMaxMotion_px = 120;
 

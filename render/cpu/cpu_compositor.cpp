@@ -47,8 +47,8 @@ struct CpuCompositor::Impl {
   Plate plate;
   PlateLight plate_light;
   ObjectImages images;
-  Image shadow;  ///< ratio, four channels
-  PixelRect shadow_drawn;
+  Image shadow;             ///< ratio, four channels
+  SharpBands shadow_edges;  ///< pixels of `shadow` that a blur changes
   LayerBlur layer_blur;
   PassStopwatch clock;
 };
@@ -116,16 +116,22 @@ void CpuCompositor::Impl::blur(const FramePlan& plan) {
   PixelRect covered = object.drawn();
   covered.x -= plan.virtual_rect.x, covered.y -= plan.virtual_rect.y;
   const glm::dvec2 corner(plan.virtual_rect.x, plan.virtual_rect.y);
-  const auto blur_one = [&](Image& image, PixelRect active, const MotionField& motion) {
+  const auto blur_one = [&](Image& image, SharpBands active, const MotionField& motion, double invisible) {
+    if (active.empty()) return;
+    int reach = 0;
     if (plan.blur.variance_px2 > 0) {
-      layer_blur.defocus(image, active, plan.blur.variance_px2);
-      const int reach = static_cast<int>(discrete_gaussian(plan.blur.variance_px2).size());
-      active = {active.x - reach, active.y - reach, active.width + 2 * reach, active.height + 2 * reach};
+      const std::vector<float> weights = discrete_gaussian(plan.blur.variance_px2, invisible);
+      layer_blur.defocus(image, active, weights);
+      reach = static_cast<int>(weights.size());
     }
-    if (plan.blur.moves) layer_blur.move(image, active, motion, corner);
+    if (!plan.blur.moves) return;
+    PixelRect all;
+    for (const PixelRect& band : active) all = unite(all, band);
+    layer_blur.move(image, {all.x - reach, all.y - reach, all.width + 2 * reach, all.height + 2 * reach}, motion, corner);
   };
-  if (!covered.empty()) blur_one(images.color, covered, plan.blur.object);
-  if (!shadow_drawn.empty()) blur_one(shadow, shadow_drawn, plan.blur.shadow);
+  // Highlights are far brighter than what lies around them; a shadow's ratio never is.
+  if (!covered.empty()) blur_one(images.color, {covered}, plan.blur.object, 1e-5);
+  blur_one(shadow, shadow_edges, plan.blur.shadow, 2e-3);
 }
 
 /// Draws object and shadow, blurs them as the camera does, and looks for highlights that glare.
@@ -138,9 +144,9 @@ void CpuCompositor::Impl::draw_virtual_layer(const FrameView& view, const FrameP
   });
   clock.pass("receiver", [&] {
     if (receiver)
-      shadow_drawn = draw_receiver(view, plan, pixel_rays, *receiver, shadow);
+      shadow_edges = draw_receiver(view, plan, pixel_rays, *receiver, shadow);
     else
-      shadow_drawn = {}, std::ranges::fill(shadow.data, 1.0f);
+      shadow_edges.clear(), std::ranges::fill(shadow.data, 1.0f);
   });
   if (!plan.blur.empty()) clock.pass("lens blur", [&] { blur(plan); });
   if (plan.seeks_glare && glare)

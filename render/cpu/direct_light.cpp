@@ -59,7 +59,7 @@ DirectLightNode DirectLight::node_at(const glm::vec3& position_m, const glm::vec
   thread_local RayStream rays;
   thread_local std::vector<std::size_t> asked;
   asked.clear();
-  DirectLightNode node{seen, glm::mat3(0)};
+  DirectLightNode node{seen, glm::vec3(0)};
   for (std::size_t word = 0; word < 2; ++word)
     for (std::uint64_t bits = unknown[word]; bits != 0; bits &= bits - 1) {
       const std::size_t sample = 64 * word + static_cast<std::size_t>(std::countr_zero(bits));
@@ -73,7 +73,8 @@ DirectLightNode DirectLight::node_at(const glm::vec3& position_m, const glm::vec
   for (std::size_t i = 0; i < asked.size(); ++i)
     if (!(rays.far[i] < 0)) node.seen[asked[i] / 64] |= std::uint64_t{1} << (asked[i] % 64);
   for (std::size_t i = 0; i < samples_.size(); ++i)
-    if (node.sees(i)) node.flux += glm::outerProduct(glm::vec3(samples_[i].direction), glm::vec3(samples_[i].irradiance));
+    if (node.sees(i))
+      node.irradiance += std::max(glm::dot(normal, glm::vec3(samples_[i].direction)), 0.0f) * glm::vec3(samples_[i].irradiance);
   return node;
 }
 
@@ -87,7 +88,7 @@ void DirectLight::find_vertices() {
     for (std::size_t v = first; v < last; ++v) {
       const glm::vec3 normal = unit(mesh_.vertices[v].normal);
       vertices_[v] = node_at(mesh_.vertices[v].position_m, normal, none, all);
-      at_vertices_over_pi_[v] = glm::max(normal * vertices_[v].flux, 0.0f) / glm::pi<float>();
+      at_vertices_over_pi_[v] = vertices_[v].irradiance / glm::pi<float>();
     }
   });
 }
@@ -173,19 +174,12 @@ glm::vec3 DirectLight::irradiance(const SurfacePoint& point, float* shares) cons
   if (point.is_back) {  // what is kept is for the front
     const DirectLightNode node = node_at(point.position_m, point.normal, {}, bits_of(samples_.size()));
     for (std::size_t i = 0; shares && i < samples_.size(); ++i) shares[i] = node.sees(i) ? 1 : 0;
-    return glm::max(point.normal * node.flux, 0.0f);
-  }
-  if (!shares && lattices_[point.triangle].steps == 0) {  // corners that see the same samples
-    const std::uint32_t* corner = &mesh_.indices[3 * static_cast<std::size_t>(point.triangle)];
-    const glm::vec2& w = point.weights;
-    return glm::pi<float>() * ((1 - w.x - w.y) * at_vertices_over_pi_[corner[0]] + w.x * at_vertices_over_pi_[corner[1]] +
-                               w.y * at_vertices_over_pi_[corner[2]]);
+    return node.irradiance;
   }
   const auto [nodes, w] = corners_at(point);
-  const glm::mat3 flux = w.x * nodes[0]->flux + w.y * nodes[1]->flux + w.z * nodes[2]->flux;
   for (std::size_t i = 0; shares && i < samples_.size(); ++i)
     shares[i] = (nodes[0]->sees(i) ? w.x : 0) + (nodes[1]->sees(i) ? w.y : 0) + (nodes[2]->sees(i) ? w.z : 0);
-  return glm::max(point.normal * flux, 0.0f);
+  return w.x * nodes[0]->irradiance + w.y * nodes[1]->irradiance + w.z * nodes[2]->irradiance;
 }
 
 }  // namespace catchlight::render

@@ -20,7 +20,7 @@ namespace catchlight::render {
 /// What is split off, at one place.
 struct DirectLightNode {
   std::array<std::uint64_t, 2> seen{};  ///< a bit a sample: in front of the surface, and nothing between
-  glm::mat3 flux{0};                    ///< column c: sum of irradiance[c] * direction over the samples seen
+  glm::vec3 irradiance{0};              ///< by those samples, on the surface there
 
   bool sees(std::size_t sample) const { return (seen[sample / 64] >> (sample % 64) & 1) != 0; }
 };

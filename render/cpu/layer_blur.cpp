@@ -56,35 +56,53 @@ Float4 mean_along(const Image& image, int x, int y, const MotionTaps& taps) {
   return sum;
 }
 
+void blur_row(const Image& image, const PixelRect& row, const std::vector<float>& weights, Float4* to) {
+  const int reach = static_cast<int>(weights.size()) - 1;
+  for (int x = row.x; x < row.x + row.width; ++x) {
+    Float4 sum = splat(weights[0]) * load(image.pixel(x, row.y));
+    for (int i = 1; i <= reach; ++i)
+      sum += splat(weights[i]) *
+             (load(image.pixel(std::min(x + i, image.width - 1), row.y)) + load(image.pixel(std::max(x - i, 0), row.y)));
+    *to++ = sum;
+  }
+}
+
 }  // namespace
 
-void LayerBlur::defocus(Image& image, const PixelRect& active, double variance_px2) {
-  const std::vector<float> weights = discrete_gaussian(variance_px2);
+void LayerBlur::defocus(Image& image, std::span<const PixelRect> active, const std::vector<float>& weights) {
   const int reach = static_cast<int>(weights.size()) - 1;
-  const PixelRect rows = grown(active, reach, 0, image), all = grown(active, reach, reach, image);
-  if (rows.empty()) return;
+  // The columns that each row needs: those of the bands whose blur reaches it.
+  std::vector<PixelRect> rows(static_cast<std::size_t>(image.height));
+  for (const PixelRect& band : active) {
+    const PixelRect reached = grown(band, reach, reach, image);
+    for (int y = reached.y; y < reached.y + reached.height; ++y)
+      rows[static_cast<std::size_t>(y)] = unite(rows[static_cast<std::size_t>(y)], {reached.x, y, reached.width, 1});
+  }
+  PixelRect all;
+  for (const PixelRect& row : rows) all = unite(all, row);
+  if (all.empty()) return;
   // Rows into the scratch, which has `reach` rows more above and below, then columns back.
   const PixelRect read = grown(all, 0, reach, image);
   scratch_.resize(static_cast<std::size_t>(read.width) * read.height);
   for_rows(read, [&](int y) {
-    Float4* to = &scratch_[static_cast<std::size_t>(y - read.y) * read.width];
-    for (int x = read.x; x < read.x + read.width; ++x) {
-      Float4 sum = splat(weights[0]) * load(image.pixel(x, y));
-      for (int i = 1; i <= reach; ++i)
-        sum += splat(weights[i]) *
-               (load(image.pixel(std::min(x + i, image.width - 1), y)) + load(image.pixel(std::max(x - i, 0), y)));
-      *to++ = sum;
+    PixelRect row;
+    for (int near = std::max(y - reach, 0); near <= std::min(y + reach, image.height - 1); ++near) {
+      PixelRect wanted = rows[static_cast<std::size_t>(near)];
+      wanted.y = y;
+      row = unite(row, wanted);
     }
+    blur_row(image, row, weights, &scratch_[static_cast<std::size_t>(y - read.y) * read.width + (row.x - read.x)]);
   });
   for_rows(all, [&](int y) {
-    for (int x = 0; x < all.width; ++x) {
-      const auto at = [&](int row) {
-        const int inside = std::clamp(row, 0, image.height - 1);
-        return scratch_[static_cast<std::size_t>(inside - read.y) * read.width + x];
+    const PixelRect& row = rows[static_cast<std::size_t>(y)];
+    for (int x = row.x; x < row.x + row.width; ++x) {
+      const auto at = [&](int from) {
+        const int inside = std::clamp(from, 0, image.height - 1);
+        return scratch_[static_cast<std::size_t>(inside - read.y) * read.width + (x - read.x)];
       };
       Float4 sum = splat(weights[0]) * at(y);
       for (int i = 1; i <= reach; ++i) sum += splat(weights[i]) * (at(y + i) + at(y - i));
-      store(sum, image.pixel(all.x + x, y));
+      store(sum, image.pixel(x, y));
     }
   });
 }

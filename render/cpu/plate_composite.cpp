@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "catchlight/error.hpp"
 #include "catchlight/response.hpp"
 #include "catchlight/util/parallel.hpp"
+#include "render/cpu/float4.hpp"
 #include "render/receiver_light.hpp"
 #include "shaders/noise.h"
 
@@ -21,47 +23,58 @@ float changed_code(Plate::Format format) {
   return format == Plate::Format::rgb_u8 ? 0.25f / 255 : 0.25f / 4095;
 }
 
-/// Pixels of a row that are worked on together: arrays, so that the compiler works on several at once.
-struct Run {
-  static constexpr int kMost = 256;
-  using Values = std::array<float, kMost>;
+[[gnu::target_clones("avx2", "default")]] void fill_noise(glm::ivec2 place, std::uint32_t seed, std::uint32_t stream, int count,
+                                                          float* result) {
+  for (int i = 0; i < count; ++i) result[i] = shading::gaussian({place.x + i, place.y}, seed, stream);
+}
 
-  int x = 0, y = 0, count = 0;
-  std::array<Values, 3> code, background, object, ratio, glare, light;
-  Values coverage;
+Float4 square_root(Float4 v) {
+  Float4 root;
+  for (int i = 0; i < 4; ++i) root[i] = std::sqrt(v[i]);
+  return root;
+}
+
+/// The noise of a row of pixels, of variance 1: two numbers that blocks share, and one of each pixel's own.
+class NoiseRow {
+ public:
+  NoiseRow(const SensorNoise& noise, int x, int y, int count) : noise_(noise), first_block_(x >> noise.block_shift.x), x_(x) {
+    const int blocks = ((x + count - 1) >> noise.block_shift.x) - first_block_ + 1;
+    for (int stream = 0; stream < 2; ++stream) {
+      shared_[stream].resize(static_cast<std::size_t>(blocks));
+      fill_noise({first_block_, y >> noise.block_shift.y}, noise.frame, static_cast<std::uint32_t>(stream), blocks,
+                 shared_[stream].data());
+    }
+    own_.resize(static_cast<std::size_t>(count));
+    fill_noise({x, y}, noise.frame, 2u, count, own_.data());
+    for (int i = 0; i < 3; ++i) mix_[i] = float4(noise.mix[i]);
+    slope_ = float4(noise.slope), floor_ = float4(noise.floor);
+  }
+
+  /// What pixel i lacks, as shading::missing_sigma() says.
+  Float4 missing(int i, Float4 light, Float4 background, Float4 kept) const {
+    const auto block = static_cast<std::size_t>(((x_ + i) >> noise_.block_shift.x) - first_block_);
+    const Float4 unit = mix_[0] * splat(shared_[0][block]) + mix_[1] * splat(shared_[1][block]) +
+                        mix_[2] * splat(own_[static_cast<std::size_t>(i)]);
+    const Float4 wanted = positive(slope_ * positive(light) + floor_);
+    const Float4 there = kept * kept * positive(slope_ * positive(background) + floor_);
+    return square_root(positive(wanted - there)) * unit;
+  }
+
+ private:
+  const SensorNoise& noise_;
+  int first_block_, x_;
+  std::array<std::vector<float>, 2> shared_;
+  std::vector<float> own_;
+  std::array<Float4, 3> mix_;
+  Float4 slope_, floor_;
 };
 
-/// Unit noise that blocks of pixels share.
-void shared_noise(const SensorNoise& noise, const Run& run, std::uint32_t stream, Run::Values& result) {
-  const int across = noise.block_shift.x, row = run.y >> noise.block_shift.y;
-  for (int i = 0; i < run.count;) {
-    const int block = (run.x + i) >> across;
-    const float value = shading::gaussian({block, row}, noise.frame, stream);
-    for (; i < run.count && (run.x + i) >> across == block; ++i) result[i] = value;
-  }
-}
-
-[[gnu::target_clones("avx2", "default")]] void own_noise(int x, int y, std::uint32_t seed, int count, float* result) {
-  for (int i = 0; i < count; ++i) result[i] = shading::gaussian({x + i, y}, seed, 2u);
-}
-
-/// Adds the noise that what is virtual lacks.
-void add_noise(const SensorNoise& noise, Run& run) {
-  Run::Values first, second, own;
-  shared_noise(noise, run, 0u, first);
-  shared_noise(noise, run, 1u, second);
-  own_noise(run.x, run.y, noise.frame, run.count, own.data());
-  for (int c = 0; c < 3; ++c) {
-    const float slope = noise.slope[c], lowest = noise.floor[c];
-    const float of_first = noise.mix[0][c], of_second = noise.mix[1][c], of_own = noise.mix[2][c];
-    Run::Values &light = run.light[c], &background = run.background[c], &ratio = run.ratio[c];
-    for (int i = 0; i < run.count; ++i) {
-      const float kept = (1 - run.coverage[i]) * ratio[i];
-      const float sigma = shading::missing_sigma(slope, lowest, light[i], background[i], kept);
-      light[i] += sigma * (of_first * first[i] + of_second * second[i] + of_own * own[i]);
-    }
-  }
-}
+struct Pixel {
+  Float4 code{}, background{};
+  Float4 object{};  ///< premultiplied, coverage
+  Float4 ratio{}, glare{};
+  bool is_touched = false;
+};
 
 class PlateComposite {
  public:
@@ -71,137 +84,99 @@ class PlateComposite {
     clips_ = plate.format != Plate::Format::rgb_f32;
     changed_code_ = changed_code(plate.format);
     has_vignetting_ = view.camera.vignetting != glm::dvec3(0.0) && virtual_.passed_at_tag > 0;
+    black_ = float4(view.black), receiver_light_ = float4(view.receiver_light);
   }
 
-  void row(int y, std::vector<float>& glare) const {
+  void row(int y) const {
     const PixelRect& rect = result_.rect;
+    thread_local std::vector<float> glare;
     if (virtual_.glare) {
       glare.resize(3 * static_cast<std::size_t>(rect.width));
       virtual_.glare(rect.x, y, rect.width, glare.data());
     }
-    thread_local Run run;
-    run.y = y;
-    for (int i = 0; i < rect.width; i += Run::kMost) {
-      run.x = rect.x + i;
-      run.count = std::min(Run::kMost, rect.width - i);
-      float* out = &result_.rgba[4 * (static_cast<std::size_t>(y - rect.y) * rect.width + i)];
-      put(run, virtual_.glare ? &glare[3 * static_cast<std::size_t>(i)] : nullptr, out);
+    std::optional<NoiseRow> noise;
+    float* out = &result_.rgba[4 * static_cast<std::size_t>(y - rect.y) * rect.width];
+    const std::size_t first = static_cast<std::size_t>(y - plate_.rect.y) * plate_.rect.width + (rect.x - plate_.rect.x);
+    for (int i = 0; i < rect.width; ++i, out += 4) {
+      const std::size_t in_plate = first + static_cast<std::size_t>(i);
+      Pixel pixel = virtual_at(rect.x + i, y, virtual_.glare ? &glare[3 * static_cast<std::size_t>(i)] : nullptr);
+      pixel.code = response_.codes(plate_, in_plate);
+      if (!pixel.is_touched && !as_light_ && !result_.layers) {
+        store(pixel.code, out);
+        continue;
+      }
+      pixel.background = response_.linear(plate_, in_plate);
+      if (view_.effects.noise.enabled && !noise && lacks_noise(pixel)) noise.emplace(view_.effects.noise, rect.x, y, rect.width);
+      put(rect.x + i, y, pixel, noise ? &*noise : nullptr, out);
     }
   }
 
  private:
-  std::size_t in_plate(int x, int y) const {
-    return static_cast<std::size_t>(y - plate_.rect.y) * plate_.rect.width + (x - plate_.rect.x);
-  }
-
-  /// Object, shadow and glare of the run. Whether anything is virtual in it.
-  bool read_virtual(Run& run, const float* glare) const {
-    const int v = run.y - virtual_.rect.y;
-    bool any = false;
-    for (int i = 0; i < run.count; ++i) {
-      const int u = run.x + i - virtual_.rect.x;
-      const bool inside = u >= 0 && v >= 0 && u < virtual_.rect.width && v < virtual_.rect.height;
-      static constexpr float kNoObject[4] = {0, 0, 0, 0}, kNoShadow[4] = {1, 1, 1, 1};
-      const float* object = inside && virtual_.object ? virtual_.object->pixel(u, v) : kNoObject;
-      const float* ratio = inside && virtual_.shadow ? virtual_.shadow->pixel(u, v) : kNoShadow;
-      const bool no_shadow = is_no_shadow({ratio[0], ratio[1], ratio[2]});
-      run.coverage[i] = object[3];
-      any = any || object[3] > 0 || !no_shadow;
-      for (int c = 0; c < 3; ++c) {
-        run.object[c][i] = object[c];
-        run.ratio[c][i] = no_shadow ? 1 : ratio[c];
-        run.glare[c][i] = glare ? glare[3 * i + c] : 0;
-        any = any || run.glare[c][i] != 0;
-      }
+  Pixel virtual_at(int x, int y, const float* glare) const {
+    Pixel pixel;
+    pixel.ratio = splat(1);
+    if (glare) pixel.glare = Float4{glare[0], glare[1], glare[2], 0};
+    const int u = x - virtual_.rect.x, v = y - virtual_.rect.y;
+    if (u >= 0 && v >= 0 && u < virtual_.rect.width && v < virtual_.rect.height) {
+      if (virtual_.object) pixel.object = load(virtual_.object->pixel(u, v));
+      if (virtual_.shadow) pixel.ratio = load(virtual_.shadow->pixel(u, v));
     }
-    return any;
-  }
-
-  bool is_untouched(const Run& run, int i) const {
-    return run.coverage[i] == 0 && run.ratio[0][i] == 1 && run.ratio[1][i] == 1 && run.ratio[2][i] == 1 && run.glare[0][i] == 0 &&
-           run.glare[1][i] == 0 && run.glare[2][i] == 0;
-  }
-
-  void put(Run& run, const float* glare, float* out) const {
-    const bool any = read_virtual(run, glare);
-    const std::size_t first = in_plate(run.x, run.y);
-    if (!any && !as_light_ && !result_.layers) {
-      response_.read_codes(plate_, first, run.count, Run::kMost, run.code[0].data());
-      for (int i = 0; i < run.count; ++i, out += 4)
-        out[0] = run.code[0][i], out[1] = run.code[1][i], out[2] = run.code[2][i], out[3] = 0;
-      return;
+    const bool no_shadow = is_no_shadow(rgb(pixel.ratio));
+    if (no_shadow) pixel.ratio = splat(1);
+    pixel.is_touched = pixel.object[3] > 0 || !no_shadow || pixel.glare[0] != 0 || pixel.glare[1] != 0 || pixel.glare[2] != 0;
+    if (has_vignetting_ && pixel.object[3] > 0) {
+      const auto passed = static_cast<float>(vignetting_at(view_.camera, {x, y}) / virtual_.passed_at_tag);
+      pixel.object *= Float4{passed, passed, passed, 1};
     }
-    response_.read(plate_, first, run.count, Run::kMost, run.code[0].data(), run.background[0].data());
-    if (plate_.format == Plate::Format::rgb_f32) make_finite(run);
-    if (has_vignetting_) darken(run);
-    put_light(run);
-    if (view_.effects.noise.enabled && any) add_noise(view_.effects.noise, run);
-    for (int i = 0; i < run.count; ++i) put_code(run, i, out + 4 * i);
-    if (result_.layers)
-      for (int i = 0; i < run.count; ++i) put_layers(run, i);
+    return pixel;
   }
 
-  static void make_finite(Run& run) {
-    for (auto& channel : run.background)
-      for (int i = 0; i < run.count; ++i)
-        if (!std::isfinite(channel[i])) channel[i] = 0;
+  /// A shadow that takes less than a 30th of the light leaves 96 % of the noise's variance: nobody sees what is missing.
+  static bool lacks_noise(const Pixel& pixel) {
+    constexpr float kFaint = 1.0f / 30;
+    const Float4& r = pixel.ratio;
+    return pixel.object[3] > 0 || pixel.glare[0] > 0 || pixel.glare[1] > 0 || pixel.glare[2] > 0 || std::abs(r[0] - 1) > kFaint ||
+           std::abs(r[1] - 1) > kFaint || std::abs(r[2] - 1) > kFaint;
   }
 
-  void darken(Run& run) const {
-    for (int i = 0; i < run.count; ++i) {
-      if (run.coverage[i] == 0) continue;
-      const auto passed = static_cast<float>(vignetting_at(view_.camera, {run.x + i, run.y}) / virtual_.passed_at_tag);
-      for (int c = 0; c < 3; ++c) run.object[c][i] *= passed;
-    }
-  }
-
-  /// Light of the receiver as the object shadows it, with what the plate clipped.
-  float shadowed(float code, float background, float ratio, int c) const {
-    const float black = view_.black[c];
+  void put(int x, int y, const Pixel& pixel, const NoiseRow* noise, float* out) const {
     // Where the plate is clipped the receiver is brighter than it shows, and so is its shadow.
-    const bool is_clipped = clips_ && code >= static_cast<float>(kClippingCode);
-    const float lit = is_clipped ? std::max(background, view_.receiver_light[c]) : background;
+    Float4 lit = pixel.background;
+    if (clips_) lit = pixel.code >= splat(static_cast<float>(kClippingCode)) && lit < receiver_light_ ? receiver_light_ : lit;
     // Black is light the lens scatters: no shadow takes it away, and the object stands behind it too.
-    return std::max(lit - black, 0.0f) * ratio + std::min(background, black);
-  }
-
-  void put_light(Run& run) const {
-    for (int c = 0; c < 3; ++c) {
-      const float black = view_.black[c];
-      for (int i = 0; i < run.count; ++i)
-        run.light[c][i] = shadowed(run.code[c][i], run.background[c][i], run.ratio[c][i], c) * (1 - run.coverage[i]) +
-                          (run.object[c][i] + run.coverage[i] * black) + run.glare[c][i];
-    }
-  }
-
-  void put_code(const Run& run, int i, float* out) const {
+    const Float4 shadowed = positive(lit - black_) * pixel.ratio + at_most(pixel.background, black_);
+    const Float4 kept = splat(1 - pixel.object[3]), over = pixel.object + splat(pixel.object[3]) * black_;
+    Float4 light = shadowed * kept + over + pixel.glare;
+    if (noise && lacks_noise(pixel)) light += noise->missing(x - result_.rect.x, light, pixel.background, kept * pixel.ratio);
     if (as_light_) {
-      out[0] = run.light[0][i], out[1] = run.light[1][i], out[2] = run.light[2][i], out[3] = 1;
-      return;
+      light[3] = 1;
+      store(light, out);
+    } else {
+      put_code(pixel, light, out);
     }
-    const bool untouched = is_untouched(run, i);
-    bool changed = false;
-    for (int c = 0; c < 3; ++c) {
-      const float code = run.code[c][i];
-      out[c] = untouched ? code : response_.code(run.light[c][i], c);
-      if (clips_) out[c] = std::clamp(out[c], 0.0f, 1.0f);
-      // A NaN in the plate compares as changed once something virtual covers it.
-      changed = changed || !(std::abs(out[c] - code) <= changed_code_);
-    }
-    out[3] = changed && !untouched ? 1 : 0;
+    if (result_.layers) put_layers(x, y, pixel, shadowed, over);
   }
 
-  void put_layers(const Run& run, int i) const {
+  void put_code(const Pixel& pixel, Float4 light, float* out) const {
+    if (!pixel.is_touched) return store(pixel.code, out);
+    Float4 code{response_.code(light[0], 0), response_.code(light[1], 1), response_.code(light[2], 2), 0};
+    if (clips_) code = at_most(positive(code), splat(1));
+    // A NaN in the plate compares as changed once something virtual covers it.
+    const Float4 change = code - pixel.code;
+    const auto alike = (change <= splat(changed_code_)) & (change >= splat(-changed_code_));
+    code[3] = (alike[0] & alike[1] & alike[2]) != 0 ? 0 : 1;
+    store(code, out);
+  }
+
+  void put_layers(int x, int y, const Pixel& pixel, Float4 shadowed, Float4 over) const {
     Layers& layers = *result_.layers;
-    const int x = run.x + i, y = run.y;
     for (int c = 0; c < 3; ++c) {
-      const float background = run.background[c][i];
-      layers.plate.pixel(x, y)[c] = background;
-      layers.shadow.pixel(x, y)[c] = background > 0 ? shadowed(run.code[c][i], background, run.ratio[c][i], c) / background : 1;
-      layers.glare.pixel(x, y)[c] = run.glare[c][i];
-      layers.object.pixel(x, y)[c] = run.object[c][i] + run.coverage[i] * view_.black[c];
+      layers.plate.pixel(x, y)[c] = pixel.background[c];
+      layers.shadow.pixel(x, y)[c] = pixel.background[c] > 0 ? shadowed[c] / pixel.background[c] : 1;
+      layers.glare.pixel(x, y)[c] = pixel.glare[c];
+      layers.object.pixel(x, y)[c] = over[c];
     }
-    layers.object.pixel(x, y)[3] = run.coverage[i];
+    layers.object.pixel(x, y)[3] = pixel.object[3];
   }
 
   const FrameView& view_;
@@ -210,6 +185,7 @@ class PlateComposite {
   const VirtualImages& virtual_;
   bool as_light_, clips_, has_vignetting_;
   float changed_code_;
+  Float4 black_, receiver_light_;
   Composite& result_;
 };
 
@@ -232,9 +208,8 @@ void composite_plate(const FrameView& view, const Plate& plate, const ResponseTa
   result.rgba.resize(4 * static_cast<std::size_t>(rect.width) * rect.height);
   const PlateComposite composite(view, plate, response, virtual_images, as_light, result);
   parallel_for(static_cast<std::size_t>((rect.height + kRowsAtOnce - 1) / kRowsAtOnce), 0, [&](std::size_t band) {
-    std::vector<float> glare;
     const int first = rect.y + static_cast<int>(band) * kRowsAtOnce;
-    for (int y = first; y < std::min(first + kRowsAtOnce, rect.y + rect.height); ++y) composite.row(y, glare);
+    for (int y = first; y < std::min(first + kRowsAtOnce, rect.y + rect.height); ++y) composite.row(y);
   });
 }
 

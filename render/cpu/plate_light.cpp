@@ -14,7 +14,7 @@ constexpr float kBrightest = 6e4f;
 }  // namespace
 
 Float4 PlateLight::light_of(std::size_t pixel) const {
-  glm::vec3 light = glm::max(response_->linear(plate_, pixel) - black_, 0.0f);
+  glm::vec3 light = glm::max(rgb(response_->linear(plate_, pixel)) - black_, 0.0f);
   if (!is_rec709_) light = rec709_from_plate_ * light;
   light *= one_over_exposure_;
   // A channel without exposure, or a NaN in the plate, shows nothing.

@@ -55,8 +55,8 @@ std::vector<Float4> corner_row(const SeenShadow& seen, const PixelRect& rect, in
 
 }  // namespace
 
-PixelRect draw_receiver(const FrameView& view, const FramePlan& plan, const PixelRays& pixel_rays, const ReceiverShadow& shadow,
-                        Image& ratio) {
+SharpBands draw_receiver(const FrameView& view, const FramePlan& plan, const PixelRays& pixel_rays, const ReceiverShadow& shadow,
+                         Image& ratio) {
   std::ranges::fill(ratio.data, 1.0f);
   if (!plan.draws_receiver) return {};
   const Bounds reach{glm::vec3(shadow.reach().min_m, 0), glm::vec3(shadow.reach().max_m, 0)};
@@ -66,7 +66,7 @@ PixelRect draw_receiver(const FrameView& view, const FramePlan& plan, const Pixe
   const int rows = (rect.height + kCell - 1) / kCell, columns = (rect.width + kCell - 1) / kCell;
   std::vector<std::vector<Float4>> corners(static_cast<std::size_t>(rows) + 1);
   parallel_for(corners.size(), 0, [&](std::size_t row) { corners[row] = corner_row(seen, rect, static_cast<int>(row)); });
-  std::vector<PixelRect> sharp(static_cast<std::size_t>(rows));
+  SharpBands sharp(static_cast<std::size_t>(rows));
   const auto fill_cell = [&](int row, int column) {
     const auto above = &corners[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
     const auto below = &corners[static_cast<std::size_t>(row) + 1][static_cast<std::size_t>(column)];
@@ -84,9 +84,9 @@ PixelRect draw_receiver(const FrameView& view, const FramePlan& plan, const Pixe
   parallel_for(sharp.size(), 0, [&](std::size_t row) {
     for (int column = 0; column < columns; ++column) fill_cell(static_cast<int>(row), column);
   });
-  PixelRect all;
-  for (const PixelRect& each : sharp) all = unite(all, each);
-  return {all.x - plan.virtual_rect.x, all.y - plan.virtual_rect.y, all.width, all.height};
+  std::erase_if(sharp, [](const PixelRect& band) { return band.empty(); });
+  for (PixelRect& band : sharp) band.x -= plan.virtual_rect.x, band.y -= plan.virtual_rect.y;
+  return sharp;
 }
 
 }  // namespace catchlight::render

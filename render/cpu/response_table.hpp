@@ -5,11 +5,12 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <glm/glm.hpp>
+#include <cstring>
 #include <optional>
 #include <vector>
 
 #include "catchlight/plate.hpp"
+#include "render/cpu/float4.hpp"
 
 namespace catchlight::render {
 
@@ -18,13 +19,20 @@ class ResponseTable {
   /// Makes the tables anew only for another response or format.
   void set(const CameraResponse& response, Plate::Format format);
 
-  /// A pixel's light; NaN where the plate is. `plate` must have the format of the tables.
-  glm::vec3 linear(const Plate& plate, std::size_t pixel) const;
+  /// A pixel's light, and 0; what is not finite in the plate is black. `plate` must have the format of the tables.
+  Float4 linear(const Plate& plate, std::size_t pixel) const {
+    if (plate.format == Plate::Format::rgb_u8) return looked_up<std::uint8_t>(linear_, plate, pixel);
+    if (plate.format == Plate::Format::rgb_u16) return looked_up<std::uint16_t>(linear_, plate, pixel);
+    return linear_of_floats(plate, pixel);
+  }
 
-  /// Codes and light of `count` pixels from `pixel` on, channel by channel, the channels `stride` apart.
-  void read(const Plate& plate, std::size_t pixel, int count, std::size_t stride, float* codes, float* linear) const;
-  /// Codes alone.
-  void read_codes(const Plate& plate, std::size_t pixel, int count, std::size_t stride, float* codes) const;
+  /// A pixel's codes, and 0.
+  Float4 codes(const Plate& plate, std::size_t pixel) const {
+    if (plate.format == Plate::Format::rgb_u8) return looked_up<std::uint8_t>(codes_, plate, pixel);
+    if (plate.format == Plate::Format::rgb_u16) return looked_up<std::uint16_t>(codes_, plate, pixel);
+    const auto code = triple<float>(plate, pixel);
+    return Float4{code[0], code[1], code[2], 0};
+  }
 
   /// The code of a light, to a 20 000th of a code's range between 0 and 16; exact beyond and for curves from tables.
   float code(float linear, int channel) const {
@@ -41,15 +49,28 @@ class ResponseTable {
   static constexpr std::uint32_t kLastBits = std::bit_cast<std::uint32_t>(16.0f);
   static constexpr std::uint32_t kStepBits = 15;
 
+  using Tables = std::array<std::vector<float>, 3>;
+
   template <typename Code>
-  void read_integers(const Plate& plate, std::size_t pixel, int count, std::size_t stride, float* codes, float* linear) const;
+  static std::array<Code, 3> triple(const Plate& plate, std::size_t pixel) {
+    std::array<Code, 3> codes;
+    std::memcpy(codes.data(), plate.pixels.data() + pixel * sizeof(codes), sizeof(codes));
+    return codes;
+  }
+
+  template <typename Code>
+  static Float4 looked_up(const Tables& tables, const Plate& plate, std::size_t pixel) {
+    const auto code = triple<Code>(plate, pixel);
+    return Float4{tables[0][code[0]], tables[1][code[1]], tables[2][code[2]], 0};
+  }
+
+  Float4 linear_of_floats(const Plate& plate, std::size_t pixel) const;
   float exact_code(float linear, int channel) const;
 
   std::optional<CameraResponse> response_;
   Plate::Format format_ = Plate::Format::rgb_u8;
-  std::array<std::vector<float>, 3> linear_;  ///< of integer codes
-  std::vector<float> codes_;                  ///< of integers
-  std::vector<float> inverse_;                ///< empty for a curve
+  Tables linear_, codes_;       ///< a value an integer code, red first
+  std::vector<float> inverse_;  ///< empty for a curve
 };
 
 }  // namespace catchlight::render
