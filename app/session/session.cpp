@@ -188,9 +188,7 @@ PlanEntry Session::footage_entry() const {
   const auto megabytes = [](std::int64_t bytes) { return std::to_string((bytes + 500'000) / 1'000'000) + " MB"; };
   const RewindableSource::Kept& kept = footage_->kept();
   if (kept.has_all) return {"footage", "decoded once", "tracking leaves its frames in memory, " + megabytes(kept.bytes)};
-  return {
-      "footage", "decoded twice",
-      "its frames take " + megabytes(kept.bytes) + " and more, over the " + megabytes(kept.budget_bytes) + " that may be kept"};
+  return {"footage", "decoded twice", "its frames take more than the " + megabytes(kept.budget_bytes) + " that may be kept"};
 }
 
 std::vector<PlanEntry> Session::plan() const {

@@ -1,5 +1,7 @@
 #include "app/media/pixels/color_tags.hpp"
 
+#include <algorithm>
+
 extern "C" {
 #include <libavutil/frame.h>
 }
@@ -116,11 +118,23 @@ CodeFromRgb::CodeFromRgb(const AVFrame& picture, const PixelLayout& layout) : ma
 }
 
 void CodeFromRgb::row(const float* rgba, int count, const std::array<double*, 3>& codes) const {
-  for (int i = 0; i < 3; ++i) {
-    const double red = matrix_[0][i], green = matrix_[1][i], blue = matrix_[2][i], zero = offset_[i];
-    double* to = codes[static_cast<std::size_t>(i)];
-    for (int x = 0; x < count; ++x)
-      to[x] = red * code_of(rgba[4 * x]) + green * code_of(rgba[4 * x + 1]) + blue * code_of(rgba[4 * x + 2]) + zero;
+  constexpr int kMaxAtOnce = 64;  // so that the compiler sees plain arrays
+  std::array<double, kMaxAtOnce> red, green, blue;
+  for (int first = 0; first < count; first += kMaxAtOnce) {
+    const int pixels = std::min(kMaxAtOnce, count - first);
+    for (int x = 0; x < pixels; ++x) {
+      const float* pixel = rgba + 4 * (first + x);
+      const auto at = static_cast<std::size_t>(x);
+      red[at] = code_of(pixel[0]), green[at] = code_of(pixel[1]), blue[at] = code_of(pixel[2]);
+    }
+    for (int i = 0; i < 3; ++i) {
+      double* to = codes[static_cast<std::size_t>(i)] + first;
+      const double from_red = matrix_[0][i], from_green = matrix_[1][i], from_blue = matrix_[2][i], zero = offset_[i];
+      for (int x = 0; x < pixels; ++x) {
+        const auto at = static_cast<std::size_t>(x);
+        to[x] = from_red * red[at] + from_green * green[at] + from_blue * blue[at] + zero;
+      }
+    }
   }
 }
 

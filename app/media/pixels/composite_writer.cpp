@@ -70,11 +70,12 @@ PixelRect blocks_of(const PixelLayout& layout, const PixelRect& rect, int width_
   return intersect({x, y, right - x, bottom - y}, {0, 0, width_px, height_px});
 }
 
-/// Unrounded codes of one row's changed pixels.
+/// Unrounded codes of one row's pixels; from `begin` to before `end`, outside of which none has changed.
 struct CodeRow {
   explicit CodeRow(int width) : changed(static_cast<std::size_t>(width)) {
     codes.fill(std::vector<double>(static_cast<std::size_t>(width)));
   }
+  int begin = 0, end = 0;
   std::vector<std::uint8_t> changed;
   std::array<std::vector<double>, 3> codes;
 };
@@ -86,10 +87,11 @@ struct BlockRow {
   }
 
   void add(const CodeRow& row, int shift) {
-    for (std::size_t x = 0; x < row.changed.size(); ++x) changed[x >> shift] += row.changed[x];
-    for (std::size_t i = 0; i < 2; ++i) {
-      const std::vector<double>& codes = row.codes[i + 1];
-      for (std::size_t x = 0; x < codes.size(); ++x) sums[i][x >> shift] += codes[x];
+    const auto begin = static_cast<std::size_t>(row.begin), end = static_cast<std::size_t>(row.end);
+    for (std::size_t x = begin; x < end; ++x) {
+      changed[x >> shift] += row.changed[x];
+      sums[0][x >> shift] += row.codes[1][x];
+      sums[1][x >> shift] += row.codes[2][x];
     }
   }
 
@@ -124,8 +126,7 @@ class CompositeWriter {
     CodeRow row(rect_.width);
     for (int y = rect_.y; y < rect_.y + rect_.height; ++y) {
       read(rect_.x, y, row);
-      for (std::size_t i = 0; i < planes_.size(); ++i)
-        planes_[i].set_codes(rect_.x, y, row.codes[i], row.changed, code_from_rgb_.max_code());
+      for (std::size_t i = 0; i < planes_.size(); ++i) write(rect_.x, y, row, i);
     }
   }
 
@@ -148,16 +149,24 @@ class CompositeWriter {
 
   int rounded(double code) const { return static_cast<int>(std::lround(std::clamp(code, 0.0, code_from_rgb_.max_code()))); }
 
-  /// The codes of the row's pixels from column `x` on; those outside the composite's rectangle have not changed.
+  /// The codes of the pixels from column `x` on, as many as the row holds.
   void read(int x, int y, CodeRow& row) const {
-    const int width = static_cast<int>(row.changed.size());
-    const int begin = std::max(rect_.x - x, 0), end = std::min(rect_.x + rect_.width - x, width);
-    std::fill(row.changed.begin(), row.changed.end(), std::uint8_t{0});
+    row.begin = row.end = 0;
     if (y < rect_.y || y >= rect_.y + rect_.height) return;
-    const float* rgba = pixels_.at(x + begin, y);
-    for (int i = 0; i < end - begin; ++i) row.changed[static_cast<std::size_t>(begin + i)] = rgba[4 * i + 3] > 0.5f;
-    code_from_rgb_.row(rgba, end - begin,
-                       {row.codes[0].data() + begin, row.codes[1].data() + begin, row.codes[2].data() + begin});
+    const int left = std::max(rect_.x - x, 0);
+    const int right = std::min(rect_.x + rect_.width - x, static_cast<int>(row.changed.size()));
+    const float* rgba = pixels_.at(x + left, y);
+    for (int i = left; i < right; ++i) row.changed[static_cast<std::size_t>(i)] = rgba[4 * (i - left) + 3] > 0.5f;
+    const auto is_changed = [&](int i) { return row.changed[static_cast<std::size_t>(i)] != 0; };
+    for (row.begin = left; row.begin < right && !is_changed(row.begin);) ++row.begin;
+    for (row.end = right; row.end > row.begin && !is_changed(row.end - 1);) --row.end;
+    const auto codes = [&](std::size_t component) { return row.codes[component].data() + row.begin; };
+    code_from_rgb_.row(rgba + 4 * (row.begin - left), row.end - row.begin, {codes(0), codes(1), codes(2)});
+  }
+
+  void write(int x, int y, const CodeRow& row, std::size_t component) const {
+    planes_[component].set_codes(x + row.begin, y, row.codes[component].data() + row.begin, row.changed.data() + row.begin,
+                                 row.end - row.begin, code_from_rgb_.max_code());
   }
 
   /// Luma of a row of blocks, and the chroma of those that changed as a whole; adds those that changed in part to `partial`.
@@ -167,7 +176,7 @@ class CompositeWriter {
     BlockRow blocks((area.width + block_width - 1) >> shift);
     for (int y = area.y; y < area.y + area.height; ++y) {
       read(area.x, y, row);
-      planes_[0].set_codes(area.x, y, row.codes[0], row.changed, code_from_rgb_.max_code());
+      write(area.x, y, row, 0);
       blocks.add(row, shift);
     }
     for (std::size_t i = 0; i < blocks.changed.size(); ++i) {

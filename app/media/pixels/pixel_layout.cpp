@@ -66,17 +66,15 @@ void SamplePlane::set_code(int x, int y, int value) const {
   at[big_endian_ ? 1 : 0] = static_cast<std::uint8_t>(merged);
 }
 
-void SamplePlane::set_codes(int x, int y, const std::vector<double>& codes, const std::vector<std::uint8_t>& changed,
-                            double max_code) const {
+void SamplePlane::set_codes(int x, int y, const double* codes, const std::uint8_t* changed, int count, double max_code) const {
   const auto rounded = [max_code](double code) { return static_cast<int>(std::min(std::max(code, 0.0), max_code) + 0.5); };
-  const std::size_t count = codes.size();
   if (!wide_ && component_.step_bytes == 1 && component_.depth == 8) {
     std::uint8_t* to = address(x, y);
-    for (std::size_t i = 0; i < count; ++i) to[i] = changed[i] ? static_cast<std::uint8_t>(rounded(codes[i])) : to[i];
+    for (int i = 0; i < count; ++i) to[i] = changed[i] ? static_cast<std::uint8_t>(rounded(codes[i])) : to[i];
     return;
   }
-  for (std::size_t i = 0; i < count; ++i)
-    if (changed[i]) set_code(x + static_cast<int>(i), y, rounded(codes[i]));
+  for (int i = 0; i < count; ++i)
+    if (changed[i]) set_code(x + i, y, rounded(codes[i]));
 }
 
 }  // namespace catchlight::app

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <cstring>
 #include <optional>
-#include <vector>
 
 struct AVFrame;
 
@@ -44,8 +43,8 @@ class SamplePlane {
   }
   void set_code(int x, int y, int value) const;
 
-  /// Sets the codes of the row's samples from column `x` on that changed (1), rounded and kept within 0 to `max_code`.
-  void set_codes(int x, int y, const std::vector<double>& codes, const std::vector<std::uint8_t>& changed, double max_code) const;
+  /// Sets the codes of those of `count` samples from column `x` on that changed (1), rounded and kept within 0 to `max_code`.
+  void set_codes(int x, int y, const double* codes, const std::uint8_t* changed, int count, double max_code) const;
 
   float value(int x, int y) const {
     float value;
