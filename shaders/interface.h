@@ -6,6 +6,7 @@
 
 namespace catchlight::render::shader_interface {
 using glm::ivec4;
+using glm::uvec4;
 using glm::mat4;
 using glm::vec4;
 #define UNIFORM_BLOCK(type, binding_number) struct type
@@ -38,7 +39,9 @@ using glm::vec4;
 #define BINDING_VERTICES 2
 #define BINDING_EXIT_RADIANCE 3
 #define BINDING_MATERIALS 4
-#define BINDING_DIRECT_LIGHT 5
+#define BINDING_VERTEX_LIGHTS 5
+#define BINDING_TRIANGLE_LIGHTS 7
+#define BINDING_CORNERS 0
 #define BINDING_LUMINANCES 0
 #define BINDING_RESPONSE 6
 
@@ -101,6 +104,22 @@ struct SurfaceMaterial {
   vec4 unlit_color;  // exposed linear
 };
 
+// What a vertex sees of the lights' samples (std430). A bit a sample: what is neither lit nor dark lies on a shadow's border.
+struct VertexLights {
+  vec4 irradiance_over_pi;
+  uvec4 lit;
+  uvec4 dark;
+};
+
+// What a triangle sees of them (std430).
+struct TriangleLights {
+  vec4 flux_red;  // sum of irradiance times direction over the samples that are lit
+  vec4 flux_green;
+  vec4 flux_blue;
+  uvec4 shining;  // all of the triangle sees these, which make highlights
+  uvec4 mixed;    // part of it does: these are looked up at each pixel
+};
+
 UNIFORM_BLOCK(LightUniforms, BINDING_LIGHT) {
   ivec4 count;  // coefficients; whether lights are split off
   vec4 coefficients[MAX_LIGHT_COEFFICIENTS];
@@ -112,7 +131,7 @@ BLOCK_NAME(light);
 UNIFORM_BLOCK(LightSampleUniforms, BINDING_LIGHT_SAMPLES) {
   ivec4 count;                         // samples
   vec4 sphere;                         // sphere around the object: middle in the tag frame, radius
-  vec4 lift_m;                         // x: how far above a surface its shadows are looked up
+  vec4 lift_m;                         // x: how far above a surface its shadows are looked up; y: how far apart at most
   vec4 to_light[MAX_LIGHT_SAMPLES];    // tag frame, length 1; w: spread (rad)
   vec4 right[MAX_LIGHT_SAMPLES];       // the shadow map's x axis
   vec4 irradiance[MAX_LIGHT_SAMPLES];  // irradiance on a surface that faces the light; w: 1 where it makes highlights

@@ -13,15 +13,24 @@ float unshadowed_share(int i, vec3 position) {
   return texture(shadow_maps, vec4(0.5 * across + 0.5, float(i), depth));
 }
 
-// Irradiance from sample i. Starts a texel and a half above the surface, which is not known any finer in the map.
-vec3 irradiance_from(int i, vec3 position, vec3 n) {
-  float n_l = dot(n, light_samples.to_light[i].xyz);
-  if (n_l <= 0.0) return vec3(0.0);
-  return n_l * unshadowed_share(i, position + light_samples.lift_m.x * n) * light_samples.irradiance[i].rgb;
+// Share of sample i that a surface sees. Starts a texel and a half above the surface, which is not known any finer in the map.
+float seen_share(int i, vec3 position, vec3 n) {
+  return dot(n, light_samples.to_light[i].xyz) > 0.0 ? unshadowed_share(i, position + light_samples.lift_m.x * n) : 0.0;
 }
 
-vec3 direct_irradiance_over_pi(vec3 position, vec3 n) {
-  vec3 sum = vec3(0.0);
-  for (int i = 0; i < light_samples.count.x; ++i) sum += irradiance_from(i, position, n);
-  return sum / kPi;
+vec3 irradiance_from(int i, vec3 position, vec3 n) {
+  return seen_share(i, position, n) * dot(n, light_samples.to_light[i].xyz) * light_samples.irradiance[i].rgb;
+}
+
+// What a place sees of all samples.
+VertexLights lights_at(vec3 position, vec3 n) {
+  VertexLights lights = VertexLights(vec4(0.0), uvec4(0u), uvec4(0u));
+  for (int i = 0; i < light_samples.count.x; ++i) {
+    float share = seen_share(i, position, n), n_l = dot(n, light_samples.to_light[i].xyz);
+    uint bit = 1u << (i & 31);
+    if (share > 0.999) lights.lit[i >> 5] |= bit;
+    if (share < 0.001) lights.dark[i >> 5] |= bit;
+    lights.irradiance_over_pi.rgb += share * n_l / kPi * light_samples.irradiance[i].rgb;
+  }
+  return lights;
 }

@@ -1,4 +1,6 @@
 // Rays against the object in the tag frame: render/rays/skip_bvh.hpp's hierarchy, walked without a stack.
+#include "vertices.glsl"
+
 struct BvhNode {
   vec3 min_m;
   uint triangles;  // first * 8 + count; count 0: an inner node
@@ -7,18 +9,12 @@ struct BvhNode {
 };
 layout(std430, binding = BINDING_BVH_NODES) readonly buffer BvhNodeBlock { BvhNode bvh_nodes[]; };
 layout(std430, binding = BINDING_BVH_TRIANGLES) readonly buffer BvhTriangleBlock { uvec4 bvh_triangles[]; };  // corners, material
-layout(std430, binding = BINDING_VERTICES) readonly buffer VertexBlock { float vertex_floats[]; };  // position, normal, colour
 
 struct RayHit {
   uvec4 triangle;  // corners, material
   float distance_m;
   vec2 weights;  // barycentric weights of corners 1 and 2
 };
-
-vec3 vertex_vec3(uint vertex, uint member) {
-  uint at = 9u * vertex + 3u * member;
-  return vec3(vertex_floats[at], vertex_floats[at + 1u], vertex_floats[at + 2u]);
-}
 
 // Both faces count but for back faces closer than `skin_m`: those are the surface that the ray starts from, whose smoothed normals
 // let it dip below its triangles.

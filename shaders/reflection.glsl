@@ -5,7 +5,7 @@
 
 layout(binding = TEXTURE_BRDF) uniform sampler2D brdf_table;  // scale and bias of F0 by (n.v, roughness)
 layout(std430, binding = BINDING_EXIT_RADIANCE) readonly buffer ExitRadianceBlock { float exit_radiance_floats[]; };
-layout(std430, binding = BINDING_DIRECT_LIGHT) readonly buffer DirectLightBlock { float direct_light_floats[]; };
+layout(std430, binding = BINDING_VERTEX_LIGHTS) readonly buffer VertexLightsBlock { VertexLights vertex_lights[]; };
 layout(std430, binding = BINDING_MATERIALS) readonly buffer MaterialBlock { SurfaceMaterial materials[]; };
 
 bool shows_lights_as_highlights(float roughness) {
@@ -18,7 +18,7 @@ vec3 exit_radiance_of(uint vertex, vec3 albedo) {
   uint at = 3u * vertex;
   vec3 diffuse = vec3(exit_radiance_floats[at], exit_radiance_floats[at + 1u], exit_radiance_floats[at + 2u]);
   if (light_samples.count.x == 0) return diffuse;
-  return diffuse + albedo * vec3(direct_light_floats[at], direct_light_floats[at + 1u], direct_light_floats[at + 2u]);
+  return diffuse + albedo * vertex_lights[vertex].irradiance_over_pi.rgb;
 }
 
 struct SurfaceHit {

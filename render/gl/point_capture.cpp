@@ -1,10 +1,11 @@
 #include "render/gl/point_capture.hpp"
 
-#include <glm/glm.hpp>
 namespace catchlight::render {
 
-PointCapture::PointCapture(const std::string& vertex_shader, const std::string& output, ShaderLibrary& shaders)
-    : program_(shaders.program({.vertex = vertex_shader, .captured = output})),
+PointCapture::PointCapture(const std::string& vertex_shader, std::vector<std::string> outputs, std::size_t point_bytes,
+                           ShaderLibrary& shaders)
+    : program_(shaders.program({.vertex = vertex_shader, .captured = std::move(outputs)})),
+      point_bytes_(static_cast<GLsizeiptr>(point_bytes)),
       no_attributes_(make_vertex_array("no attributes")),
       no_pixels_(make_framebuffer("no pixels")) {
   glNamedFramebufferParameteri(no_pixels_.id(), GL_FRAMEBUFFER_DEFAULT_WIDTH, 1);
@@ -12,11 +13,10 @@ PointCapture::PointCapture(const std::string& vertex_shader, const std::string& 
 }
 
 void PointCapture::run(GLuint target, GLintptr offset, int points) const {
-  constexpr GLsizeiptr kPointBytes = sizeof(glm::vec3);
   glBindFramebuffer(GL_FRAMEBUFFER, no_pixels_.id());
   glUseProgram(program_.id());
   glBindVertexArray(no_attributes_.id());
-  glBindBufferRange(GL_TRANSFORM_FEEDBACK_BUFFER, 0, target, offset, points * kPointBytes);
+  glBindBufferRange(GL_TRANSFORM_FEEDBACK_BUFFER, 0, target, offset, points * point_bytes_);
   glEnable(GL_RASTERIZER_DISCARD);
   glBeginTransformFeedback(GL_POINTS);
   glDrawArrays(GL_POINTS, 0, points);

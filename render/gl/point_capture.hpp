@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "render/gl/gl_objects.hpp"
 #include "render/gl/shader_library.hpp"
@@ -10,14 +11,16 @@ namespace catchlight::render {
 
 class PointCapture {
  public:
-  /// `output`: the shader's vec3 to keep.
-  PointCapture(const std::string& vertex_shader, const std::string& output, ShaderLibrary& shaders);
+  /// `outputs`: what to keep of the shader's, one after the other, `point_bytes` in all.
+  PointCapture(const std::string& vertex_shader, std::vector<std::string> outputs, std::size_t point_bytes,
+               ShaderLibrary& shaders);
 
-  /// Captures 3 floats each for points 0 to `points` - 1, from byte `offset` of `target` on.
+  /// Captures points 0 to `points` - 1, from byte `offset` of `target` on.
   void run(GLuint target, GLintptr offset, int points) const;
 
  private:
   Program& program_;
+  GLsizeiptr point_bytes_;
   GlVertexArray no_attributes_;
   GlFramebuffer
       no_pixels_;  ///< GL wants a complete framebuffer even where nothing is drawn, and a context without a window has none

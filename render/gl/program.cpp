@@ -50,8 +50,9 @@ GlProgram link(const ProgramSource& source, const std::vector<ShaderText>& texts
     shaders.push_back(compile(shaders.empty() ? GL_VERTEX_SHADER : GL_FRAGMENT_SHADER, text));
     glAttachShader(program.id(), shaders.back().id());
   }
-  const char* captured = source.captured.c_str();
-  if (!source.captured.empty()) glTransformFeedbackVaryings(program.id(), 1, &captured, GL_INTERLEAVED_ATTRIBS);
+  std::vector<const char*> captured;
+  for (const std::string& output : source.captured) captured.push_back(output.c_str());
+  glTransformFeedbackVaryings(program.id(), static_cast<GLsizei>(captured.size()), captured.data(), GL_INTERLEAVED_ATTRIBS);
   glLinkProgram(program.id());
   GLint linked = GL_FALSE;
   glGetProgramiv(program.id(), GL_LINK_STATUS, &linked);

@@ -17,9 +17,9 @@ namespace catchlight::render {
 /// The files that a program is linked from, by their names in shaders/.
 struct ProgramSource {
   std::string vertex;
-  std::string fragment = {};              ///< empty: none
-  std::vector<std::string> defines = {};  ///< "NAME" or "NAME value", for the fragment shader
-  std::string captured = {};              ///< the vertex shader's output that transform feedback writes to a buffer; empty: none
+  std::string fragment = {};               ///< empty: none
+  std::vector<std::string> defines = {};   ///< "NAME" or "NAME value", for the fragment shader
+  std::vector<std::string> captured = {};  ///< the vertex shader's outputs that transform feedback writes to a buffer
 
   auto operator<=>(const ProgramSource&) const = default;
 };

@@ -14,7 +14,7 @@ namespace catchlight::render {
 /// The program and light that all LitPoints share.
 class LightTransfer {
  public:
-  explicit LightTransfer(ShaderLibrary& shaders) : capture_("transfer.vert", "transferred", shaders) {}
+  explicit LightTransfer(ShaderLibrary& shaders) : capture_("transfer.vert", {"transferred"}, sizeof(glm::vec3), shaders) {}
 
   /// Sets the light's coefficients, at most MAX_LIGHT_COEFFICIENTS. `split_off` is the part of them whose direct way is left to
   /// shadow maps: as many, or none.

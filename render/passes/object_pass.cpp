@@ -21,6 +21,14 @@ std::vector<std::size_t> triangles_by_material(const Mesh& mesh) {
   return order;
 }
 
+/// Of how many triangles the lights are kept: of those whose records fit into one storage block (128 MiB in Mesa).
+int most_kept(const Mesh& mesh) {
+  GLint limit = 0;
+  glGetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
+  const std::size_t fitting = static_cast<std::size_t>(limit) / sizeof(shader_interface::TriangleLights);
+  return static_cast<int>(std::min(fitting, mesh.triangle_material.size()));
+}
+
 void set_attribute(GLuint array, GLuint attribute, GLuint binding, std::size_t offset) {
   glEnableVertexArrayAttrib(array, attribute);
   glVertexArrayAttribFormat(array, attribute, 3, GL_FLOAT, GL_FALSE, static_cast<GLuint>(offset));
@@ -33,8 +41,14 @@ ObjectPass::ObjectPass(const Mesh& mesh, LitPoints vertices_lit, const Reflectio
                        ShaderLibrary& shaders)
     : program_(shaders.program({.vertex = "object.vert", .fragment = "object.frag"})),
       exit_radiance_(std::move(vertices_lit)),
-      direct_light_capture_("direct_light.vert", "direct_light", shaders),
-      direct_light_(make_buffer("direct light", mesh.vertices.size() * sizeof(glm::vec3), nullptr)),
+      vertex_lights_capture_("vertex_lights.vert", {"irradiance_over_pi", "lit", "dark"}, sizeof(shader_interface::VertexLights),
+                             shaders),
+      triangle_lights_capture_("triangle_lights.vert", {"flux_red", "flux_green", "flux_blue", "shining", "mixed"},
+                               sizeof(shader_interface::TriangleLights), shaders),
+      kept_triangles_(most_kept(mesh)),
+      vertex_lights_(make_buffer("vertex lights", mesh.vertices.size() * sizeof(shader_interface::VertexLights), nullptr)),
+      triangle_lights_(make_buffer(
+          "triangle lights", static_cast<std::size_t>(kept_triangles_) * sizeof(shader_interface::TriangleLights), nullptr)),
       vertices_(make_buffer("object vertices", std::span<const Vertex>(mesh.vertices))),
       vertex_array_(make_vertex_array("object")),
       probe_(make_reflection_texture(reflections)),
@@ -86,10 +100,13 @@ void ObjectPass::upload_hierarchy(const Mesh& mesh) {
 
 void ObjectPass::light_by(const LightTransfer& light, const ShadowedLights& lights) {
   exit_radiance_.evaluate(light);
-  if (lights.count() == 0 || !reflects_) return;
+  if (lights.count() == 0) return;
   lights.bind();
   bind_storage(BINDING_VERTICES, vertices_.id());
-  direct_light_capture_.run(direct_light_.id(), 0, exit_radiance_.count());
+  vertex_lights_capture_.run(vertex_lights_.id(), 0, exit_radiance_.count());
+  bind_storage(BINDING_VERTEX_LIGHTS, vertex_lights_.id());
+  bind_storage(BINDING_CORNERS, indices_.id());
+  triangle_lights_capture_.run(triangle_lights_.id(), 0, kept_triangles_);
 }
 
 void ObjectPass::draw_geometry() const {
@@ -123,9 +140,11 @@ void ObjectPass::draw(const ObjectTarget& target, const PixelRect& rect, int fra
   bind_storage(BINDING_VERTICES, vertices_.id());
   bind_storage(BINDING_EXIT_RADIANCE, exit_radiance_.radiance());
   bind_storage(BINDING_MATERIALS, materials_.id());
-  bind_storage(BINDING_DIRECT_LIGHT, direct_light_.id());
+  bind_storage(BINDING_VERTEX_LIGHTS, vertex_lights_.id());
+  bind_storage(BINDING_TRIANGLE_LIGHTS, triangle_lights_.id());
   for (const Batch& batch : batches_) {
     program_.set("material_index", batch.material);
+    program_.set("first_triangle", batch.first_index / 3);
     const auto offset = static_cast<std::uintptr_t>(batch.first_index) * sizeof(std::uint32_t);
     glDrawElements(GL_TRIANGLES, batch.index_count, GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset));
   }

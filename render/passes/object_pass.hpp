@@ -48,9 +48,10 @@ class ObjectPass {
 
   Program& program_;
   LitPoints exit_radiance_;
-  PointCapture direct_light_capture_;
-  GlBuffer direct_light_,  ///< irradiance / pi from the lights at each vertex
-      vertices_, indices_, materials_, bvh_nodes_, bvh_triangles_;
+  PointCapture vertex_lights_capture_, triangle_lights_capture_;
+  int kept_triangles_;
+  GlBuffer vertex_lights_, triangle_lights_;  ///< what vertices and triangles see of the lights; triangles as they are drawn
+  GlBuffer vertices_, indices_, materials_, bvh_nodes_, bvh_triangles_;
   GlVertexArray vertex_array_;
   GlTexture probe_, rest_, brdf_table_;
   std::vector<Batch> batches_;

@@ -17,6 +17,8 @@ constexpr int kMaxTexels = 2048;  ///< texels along a map's side
 constexpr float kSlopeBias = 1.5f, kDepthBias = 2.0f;
 /// How far above a surface its shadow is looked up, in texels.
 constexpr float kLiftTexels = 1.5f;
+/// How far apart triangles are looked at before all of one counts as lit, or as dark, in shares of the object's diagonal.
+constexpr float kStepShare = 1.0f / 64;
 
 int texels_for(int samples) {
   const auto side = static_cast<unsigned>(std::sqrt(kTexelBudget / std::max(samples, 1)));
@@ -58,6 +60,7 @@ void ShadowedLights::update(std::span<const LightSample> samples_tag, const std:
   block.count.x = count_;
   block.sphere = glm::vec4(middle_m_, radius_m_);
   block.lift_m.x = kLiftTexels * 2 * radius_m_ / static_cast<float>(map_texels_);
+  block.lift_m.y = kStepShare * 2 * radius_m_;
   for (std::size_t i = 0; i < samples_tag.size(); ++i) {
     const LightSample& sample = samples_tag[i];
     block.to_light[i] = glm::vec4(glm::vec3(sample.direction), static_cast<float>(sample.spread_rad));

@@ -65,7 +65,7 @@ TEST_F(ShaderGl, UniformBlocksLieAsCppLaysThem) {
        MEMBER(ViewUniforms, plate_from_rec709), MEMBER(ViewUniforms, camera_in_tag_m), MEMBER(ViewUniforms, exposure),
        MEMBER(ViewUniforms, radial_numerator), MEMBER(ViewUniforms, radial_denominator), MEMBER(ViewUniforms, tangential),
        MEMBER(ViewUniforms, distortion_limit)});
-  const Program& transfer = shaders.program({.vertex = "transfer.vert", .captured = "transferred"});
+  const Program& transfer = shaders.program({.vertex = "transfer.vert", .captured = {"transferred"}});
   expect_layout(transfer, "LightUniforms", sizeof(LightUniforms),
                 {MEMBER(LightUniforms, count), {"coefficients[0]", offsetof(LightUniforms, coefficients)}});
   const Program& receiver = shaders.program({.vertex = "receiver.vert", .fragment = "receiver.frag"});

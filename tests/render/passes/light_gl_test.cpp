@@ -5,8 +5,8 @@
 
 #include "catchlight/composite.hpp"
 #include "catchlight/error.hpp"
-#include "render/gl_compositor.hpp"
 #include "render/frame_view.hpp"
+#include "render/gl_compositor.hpp"
 #include "render/render_scene.hpp"
 #include "tests/support/gl_fixture.hpp"
 
@@ -103,6 +103,48 @@ TEST_F(LightGl, OnePartOfAnObjectShadowsAnother) {
   EXPECT_NEAR(floor_at(-0.04), 0, 1e-3) << "the roof's shadow";
   EXPECT_NEAR(floor_at(-0.06), lit, 1e-3 * lit);
   EXPECT_NEAR(floor_at(0.05), lit, 1e-3 * lit);
+}
+
+/// A floor of `cells` x `cells` squares under a roof.
+Mesh roofed_floor(int cells) {
+  Mesh mesh = square({-0.01, -0.015}, {0.015, 0.01}, 0.04);
+  for (int row = 0; row < cells; ++row) {
+    for (int column = 0; column < cells; ++column) {
+      const glm::dvec2 low = 0.12 * glm::dvec2(column, row) / static_cast<double>(cells) - 0.06;
+      append(mesh, square(low, low + 0.12 / cells, 0.01));
+    }
+  }
+  return mesh;
+}
+
+TEST_F(LightGl, WhatIsKeptOfSmallTrianglesIsWhatThePixelsOfLargeOnesFind) {
+  // Two triangles are too large to keep anything of; of 3200, most see all of a light, or nothing.
+  std::vector<LightSample> lights;
+  for (int i = 0; i < 48; ++i) {
+    lights.push_back(light_from({0.8 * std::cos(0.7 * i) + 0.5, 0.8 * std::sin(0.7 * i), 0.4 + 0.03 * i}, 0.05, 0.05));
+    lights.back().compact = i % 3 != 0;
+  }
+  Material plastic = matte(0.5f);
+  plastic.dielectric_f0 = 0.05f, plastic.roughness = 0.4f;
+  const auto draw = [&](int cells) {
+    return GlCompositor(lit_scene(roofed_floor(cells), plastic, 0.1f, lights), without_glare())
+        .render(linear_view_from_above(), linear_grey_plate());
+  };
+  const Composite looked_up = draw(1), kept = draw(40);
+  ASSERT_EQ(looked_up.rect, kept.rect);
+  float darkest = 1, brightest = 0;
+  double sum = 0;
+  for (int y = 45; y < 75; ++y) {
+    for (int x = 65; x < 95; ++x) {
+      const float expected = pixel_at(looked_up, x, y).x;
+      const double apart = std::abs(pixel_at(kept, x, y).x / expected - 1);
+      EXPECT_LT(apart, 0.02) << x << ", " << y << ": one sample's light, where a shadow's border clips a triangle";
+      sum += apart / (30 * 30);
+      darkest = std::min(darkest, expected), brightest = std::max(brightest, expected);
+    }
+  }
+  EXPECT_LT(sum, 0.001) << "on the whole";
+  EXPECT_LT(darkest, 0.7f * brightest) << "shadows are in sight";
 }
 
 TEST_F(LightGl, ASphereHasNoAcneAndNoLeak) {
@@ -245,7 +287,8 @@ TEST_F(LightGl, ASunOnTheHorizonIsFinite) {
 }
 
 TEST_F(LightGl, TheLightIsWorkedOutOnlyWhenItTurns) {
-  GlCompositor compositor(lit_scene(sphere(0.03, {0, 0, 0.03}), matte(0.8f), 0.5f, {light_from({-1, 0.1, 1}, 2)}), without_glare());
+  GlCompositor compositor(lit_scene(sphere(0.03, {0, 0, 0.03}), matte(0.8f), 0.5f, {light_from({-1, 0.1, 1}, 2)}),
+                          without_glare());
   const auto works_on_light = [&](const FrameView& view) {
     compositor.render(view, linear_grey_plate());
     return std::ranges::any_of(compositor.pass_times(), [](const PassTime& pass) { return std::string(pass.name) == "light"; });
