@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "catchlight/rotation.hpp"
 #include "catchlight/util/statistics.hpp"
@@ -14,22 +15,38 @@ constexpr int kParameters = kSharedParameters + kLightParameters;
 /// A pixel's own square spreads light by 1/12 px²; beyond 6 px nothing of any tag is left to see.
 constexpr double kMinBlur_px2 = 0.08, kMaxBlur_px2 = 36;
 
-/// Upper triangle and, as a last column, the right side of one part's equations. Plain arrays of even width: this is where the
-/// time goes.
+/// Upper triangle and, as a last column, the right side of one part's equations. Plain arrays, rows that start and end at fours,
+/// and loops of constant length: this is where the time goes.
 struct Sums {
-  static constexpr int kColumns = kParameters + 1;
-  static_assert(kColumns % 2 == 0);
+  static constexpr int kColumns = 16;  ///< parameters, the right side, and two that stay empty
+  static_assert(kColumns % 4 == 0 && kColumns > kParameters);
   double normal[kParameters][kColumns] = {};
 
-  /// `gradient` ends with the residual; parameters before `first` have none.
-  void add(const double (&gradient)[kColumns], double weight, int first);
+  /// `gradient` has the residual after the parameters.
+  void add(const double (&gradient)[kColumns], double weight);
+
+  /// The same, where the shared parameters have no gradient.
+  void add_light(const double (&gradient)[kColumns], double weight);
+
+  template <int kRow>
+  [[gnu::always_inline]] void add_row(const double (&gradient)[kColumns], double weight) {
+    constexpr int kFirst = kRow / 4 * 4;
+    const double weighted = weight * gradient[kRow];
+    for (int j = kFirst; j < kColumns; ++j) normal[kRow][j] += weighted * gradient[j];
+  }
+
+  template <int kFirst, int... kRows>
+  [[gnu::always_inline]] void add_rows(const double (&gradient)[kColumns], double weight, std::integer_sequence<int, kRows...>) {
+    (add_row<kFirst + kRows>(gradient, weight), ...);
+  }
 };
 
-[[gnu::target_clones("avx2", "default")]] void Sums::add(const double (&gradient)[kColumns], double weight, int first) {
-  for (int i = first; i < kParameters; ++i) {
-    const double weighted = weight * gradient[i];
-    for (int j = i & ~1; j < kColumns; ++j) normal[i][j] += weighted * gradient[j];
-  }
+[[gnu::target_clones("avx2", "default")]] void Sums::add(const double (&gradient)[kColumns], double weight) {
+  add_rows<0>(gradient, weight, std::make_integer_sequence<int, kParameters>());
+}
+
+[[gnu::target_clones("avx2", "default")]] void Sums::add_light(const double (&gradient)[kColumns], double weight) {
+  add_rows<kSharedParameters>(gradient, weight, std::make_integer_sequence<int, kLightParameters>());
 }
 
 struct Sampled {
@@ -192,7 +209,7 @@ DirectModel::Linearized DirectModel::linearize(const DirectParameters& at, const
       by_light[2] = by_light[1] * across.x;
       by_light[3] = by_light[1] * across.y;
       gradient[kParameters] = residual.code;
-      sums.add(gradient, loss.weight(residual.code), residual.edge ? 0 : kSharedParameters);
+      residual.edge ? sums.add(gradient, loss.weight(residual.code)) : sums.add_light(gradient, loss.weight(residual.code));
     }
     add_to(result.equations, sums);
   }
@@ -217,18 +234,20 @@ bool DirectModel::guess_light(DirectParameters& at) const {
   return true;
 }
 
-std::optional<DirectParameters> stepped(const DirectParameters& from, const NormalEquations& equations, double damping) {
+std::optional<DirectParameters> stepped(const DirectParameters& from, const NormalEquations& equations, double damping,
+                                        double stretch) {
   const auto reduced = reduce(equations, damping);
   if (!reduced) return std::nullopt;
   cv::Vec<double, kSharedParameters> step;
   if (!cv::solve(reduced->shared, reduced->right, step, cv::DECOMP_CHOLESKY)) return std::nullopt;
+  step *= stretch;
   DirectParameters to = from;
   to.camera_from_target.rotation = rotation_matrix({step[0], step[1], step[2]}) * from.camera_from_target.rotation;
   to.camera_from_target.translation_m += glm::dvec3(step[3], step[4], step[5]);
   to.blur_px2 = plausible_blur({from.blur_px2.xx + step[6], from.blur_px2.xy + step[7], from.blur_px2.yy + step[8]});
   for (std::size_t i = 0; i < equations.parts.size(); ++i) {
     const NormalEquations::Part& part = equations.parts[i];
-    const cv::Vec<double, kLightParameters> light = reduced->light_inverse[i] * (part.right - part.cross.t() * step);
+    const cv::Vec<double, kLightParameters> light = reduced->light_inverse[i] * (stretch * part.right - part.cross.t() * step);
     to.light[i].black += light[0];
     to.light[i].gain += light[1];
     to.light[i].gain_u += light[2];

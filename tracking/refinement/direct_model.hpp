@@ -91,8 +91,10 @@ class DirectModel {
   std::vector<TagPart> parts_;
 };
 
-/// The step that solves the equations, damped by Levenberg's and Marquardt's rule; empty where they have no solution.
-std::optional<DirectParameters> stepped(const DirectParameters& from, const NormalEquations& equations, double damping);
+/// The step that solves the equations, damped by Levenberg's and Marquardt's rule, `stretch` times as far; empty where they have
+/// no solution.
+std::optional<DirectParameters> stepped(const DirectParameters& from, const NormalEquations& equations, double damping,
+                                        double stretch = 1);
 
 /// Inverse of the equations for the pose alone, everything else unknown; empty where they are singular.
 std::optional<cv::Matx66d> pose_covariance(const NormalEquations& equations);

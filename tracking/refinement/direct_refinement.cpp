@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::size_t kMinPixels = 40;
 constexpr std::size_t kMaxPixels = 2200, kMaxCoarsePixels = 1000;
-constexpr double kCoarseCellPx = 3;                 ///< blocks leave cells at least this large: smaller ones run together
-constexpr double kLossSigmas = 4;                   ///< the loss keeps 93 % of least squares' efficiency on Gaussian noise
-constexpr double kMinNoiseCodes = 0.35;             ///< rounding alone leaves 0.29
+constexpr double kCoarseCellPx = 3;      ///< blocks leave cells at least this large: smaller ones run together
+constexpr double kLossSigmas = 4;        ///< the loss keeps 93 % of least squares' efficiency on Gaussian noise
+constexpr double kMinNoiseCodes = 0.35;  ///< rounding alone leaves 0.29
 /// What a frame's own fit may say against the usual: blur changes by a few px², light across a tag by a third.
 constexpr double kBlurPrior_px2 = 2, kLightPrior = 0.3;
 /// The other planar pose is ruled out without a fit of its own where its corners are this far off, or its pixels speak this much
@@ -25,7 +25,7 @@ constexpr double kRuledOutPx = 2.5, kRuledOutLogOdds = 100;
 /// Residuals of neighbouring pixels go together (compression, the print's own faults): a pixel counts as this much of one.
 constexpr double kIndependence = 0.5;
 
-/// The steps at which minimising ends, in the first round and in those that follow: the next would be a fifth of that.
+/// The steps at which minimising ends, in the first round and in those that follow: the next would be a tenth of that.
 struct Precision {
   double first_px = 0.1, then_px = 0.01;
 };
@@ -136,6 +136,7 @@ struct DirectRefiner::Impl {
     DirectModel::Linearized linearized;
     double noise = 0;
     double kept_share = 1;  ///< the pixels that are not occluded
+    double moved_px = 1e9;  ///< by the last step
     bool is_another_print = false;
     bool is_light_even = false;  ///< not yet let slope: a dark occluder would pass for a slope far from the solution
   };
@@ -151,9 +152,13 @@ struct DirectRefiner::Impl {
   void minimize(const DirectModel& model, Fit& fit, const Covariance2& usual_blur, double until_px) const {
     constexpr int kMaxSteps = 10;
     constexpr double kFirstDamping = 1e-4, kMaxDamping = 1e3;
+    // Weights that fall with the residual make the cost flatter than Gauss-Newton takes it for: its steps are a quarter too
+    // short.
+    constexpr double kNearPx = 1, kStretch = 1.3;
     double damping = kFirstDamping;
     for (int step = 0; step < kMaxSteps; ++step) {
-      const auto next = stepped(fit.at, fit.linearized.equations, damping);
+      const double stretch = fit.moved_px < kNearPx ? kStretch : 1;
+      const auto next = stepped(fit.at, fit.linearized.equations, damping, stretch);
       std::optional<DirectModel::Linearized> there;
       if (next) there = linearize(model, *next, usual_blur, fit.noise, fit.is_light_even);
       if (!there || !(there->equations.cost <= fit.linearized.equations.cost)) {
@@ -161,11 +166,11 @@ struct DirectRefiner::Impl {
         if (damping > kMaxDamping) return;
         continue;
       }
-      const double moved = moved_px(camera, fit.at, *next, reach_m);
+      fit.moved_px = moved_px(camera, fit.at, *next, reach_m);
       fit.at = *next;
       fit.linearized = std::move(*there);
       damping = std::max(damping / 10, 1e-7);
-      if (moved < until_px) return;
+      if (fit.moved_px < until_px) return;
     }
   }
 

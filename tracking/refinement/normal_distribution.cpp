@@ -8,19 +8,6 @@
 namespace catchlight::tracking {
 namespace {
 
-constexpr double kReach = 6, kStep = 1.0 / 64;
-constexpr int kNodes = static_cast<int>(2 * kReach / kStep) + 1;
-
-const std::array<Normal, kNodes> kTable = [] {
-  std::array<Normal, kNodes> made;
-  for (int i = 0; i < kNodes; ++i) {
-    const double x = -kReach + i * kStep;
-    made[static_cast<std::size_t>(i)] = {std::exp(-x * x / 2) / std::sqrt(2 * std::numbers::pi),
-                                         std::erfc(-x / std::numbers::sqrt2) / 2};
-  }
-  return made;
-}();
-
 /// Gauss-Legendre nodes on [-1, 1]; each stands for its negative, too.
 struct GaussNode {
   double at, weight;
@@ -58,15 +45,14 @@ double plackett_integral(double a, double b, double rho) {
 
 }  // namespace
 
-/// Taylor's series about the nearest node.
-Normal normal(double x) {
-  if (!(x > -kReach)) return {0, 0};
-  if (!(x < kReach)) return {0, 1};
-  const int i = static_cast<int>((x + kReach) / kStep + 0.5);
-  const double at = i * kStep - kReach, d = x - at;
-  const Normal& node = kTable[static_cast<std::size_t>(i)];
-  return {node.density * (1 - d * at + d * d / 2 * (at * at - 1)), node.cumulative + node.density * d * (1 - d * at / 2)};
-}
+const decltype(kNormals) kNormals = [] {
+  std::remove_const_t<decltype(kNormals)> made;
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    const double x = static_cast<double>(i) * kNormalStep - kNormalReach;
+    made[i] = {std::exp(-x * x / 2) / std::sqrt(2 * std::numbers::pi), std::erfc(-x / std::numbers::sqrt2) / 2};
+  }
+  return made;
+}();
 
 double bivariate_cumulative(double a, const Normal& at_a, double b, const Normal& at_b, double rho) {
   const double independent = at_a.cumulative * at_b.cumulative;

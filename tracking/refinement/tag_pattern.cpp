@@ -51,6 +51,22 @@ void add_straight_edges(const Lines& lines, const float* cells, int stride, Patt
   }
 }
 
+/// Adds the corner at standardised distances `at`, by its mixed difference.
+void add_corner(const glm::dvec2& at, const Normal& at_u, const Normal& at_v, const Covariance2& blur, const glm::dvec2& sigma,
+                double step, PatternSample& sample) {
+  const double rho = std::clamp(blur.xy / (sigma.x * sigma.y), -0.999, 0.999), root = std::sqrt(1 - rho * rho);
+  const double a = at.x, b = at.y, density_a = at_u.density, density_b = at_v.density;
+  const Normal b_given_a = normal((b - rho * a) / root);
+  const double a_given_b = normal((a - rho * b) / root).cumulative;
+  const double joint = density_a * b_given_a.density / root;
+  sample.white += step * bivariate_cumulative(a, at_u, b, at_v, rho);
+  sample.gradient.x += step * density_a * b_given_a.cumulative / sigma.x;
+  sample.gradient.y += step * density_b * a_given_b / sigma.y;
+  sample.uu -= step * (a * density_a * b_given_a.cumulative + rho * joint) / blur.xx;
+  sample.vv -= step * (b * density_b * a_given_b + rho * joint) / blur.yy;
+  sample.uv += step * joint / (sigma.x * sigma.y);
+}
+
 }  // namespace
 
 TagPattern::TagPattern(const TagLayout& layout)
@@ -84,11 +100,49 @@ TagPattern::Neighbourhood TagPattern::around(const glm::dvec2& cell, const glm::
 }
 
 PatternSample TagPattern::sample(const glm::dvec2& cell, const Covariance2& blur) const {
-  constexpr double kFar = 1e6;
+  constexpr double kFar = 1e6, kHalfCell = 0.5 / kReachSigmas;
+  if (!(std::abs(cell.x) < kFar && std::abs(cell.y) < kFar)) return {};
+  const glm::dvec2 sigma(std::sqrt(blur.xx), std::sqrt(blur.yy));
+  if (sigma.x < kHalfCell && sigma.y < kHalfCell) return sample_near_one_corner(cell, blur, sigma);
+  return sample_near_many(cell, blur);
+}
+
+/// White as white() has it: the outermost cells are the paper that goes on beyond.
+double TagPattern::clamped(int column, int row) const {
+  const int x = std::clamp(column + margin_ + kPaperCells, 0, side_ - 1),
+            y = std::clamp(row + margin_ + kPaperCells, 0, side_ - 1);
+  return static_cast<double>(white_[static_cast<std::size_t>(y * side_ + x)]);
+}
+
+/// The usual case, of cells wider than the blur reaches: the corner that is nearest is all there can be. Lines out of reach
+/// separate a cell from itself.
+PatternSample TagPattern::sample_near_one_corner(const glm::dvec2& cell, const Covariance2& blur, const glm::dvec2& sigma) const {
+  const glm::ivec2 inside(floor_of(cell.x), floor_of(cell.y)), nearest(floor_of(cell.x + 0.5), floor_of(cell.y + 0.5));
+  const double a = (cell.x - nearest.x) / sigma.x, b = (cell.y - nearest.y) / sigma.y;
+  const bool has_column = std::abs(a) <= kReachSigmas, has_row = std::abs(b) <= kReachSigmas;
+  const int left = has_column ? nearest.x - 1 : inside.x, right = has_column ? nearest.x : inside.x;
+  const int top = has_row ? nearest.y - 1 : inside.y, bottom = has_row ? nearest.y : inside.y;
+  const double white = clamped(left, top), right_of = clamped(right, top), below = clamped(left, bottom),
+               across = clamped(right, bottom);
   PatternSample result;
-  if (!(std::abs(cell.x) < kFar && std::abs(cell.y) < kFar)) return result;
+  if (std::min({white, right_of, below, across}) < 0) return result;
+  const double step_u = right_of - white, step_v = below - white, corner = (across - below) - step_u;
+  result.known = true;
+  result.white = white;
+  if (step_u == 0 && step_v == 0 && corner == 0) return result;
+  result.edge = true;
+  const Normal at_a = normal(a), at_b = normal(b);
+  result.white += step_u * at_a.cumulative + step_v * at_b.cumulative;
+  result.gradient = {step_u * at_a.density / sigma.x, step_v * at_b.density / sigma.y};
+  result.uu = -step_u * a * at_a.density / blur.xx;
+  result.vv = -step_v * b * at_b.density / blur.yy;
+  if (corner != 0) add_corner({a, b}, at_a, at_b, blur, sigma, corner, result);
+  return result;
+}
+
+PatternSample TagPattern::sample_near_many(const glm::dvec2& cell, const Covariance2& blur) const {
+  PatternSample result;
   const Lines columns(cell.x, blur.xx), rows(cell.y, blur.yy);
-  const double sigma_u = columns.sigma, sigma_v = rows.sigma;
   float cells[kMaxLines + 1][kMaxLines + 1];
   for (int j = 0; j <= rows.count; ++j)
     for (int i = 0; i <= columns.count; ++i) {
@@ -101,23 +155,12 @@ PatternSample TagPattern::sample(const glm::dvec2& cell, const Covariance2& blur
   add_straight_edges(rows, &cells[0][0], kMaxLines + 1, result, result.gradient.y, result.vv);
   if (columns.count == 0 || rows.count == 0) return result;
 
-  const double rho = std::clamp(blur.xy / (sigma_u * sigma_v), -0.999, 0.999), root = std::sqrt(1 - rho * rho);
   for (int j = 0; j < rows.count; ++j)
     for (int i = 0; i < columns.count; ++i) {
       const double step = (cells[j + 1][i + 1] - cells[j + 1][i]) - (cells[j][i + 1] - cells[j][i]);
       if (step == 0) continue;
       result.edge = true;
-      const double a = columns.at[i], b = rows.at[j];
-      const double density_a = columns.normal[i].density, density_b = rows.normal[j].density;
-      const Normal b_given_a = normal((b - rho * a) / root);
-      const double a_given_b = normal((a - rho * b) / root).cumulative;
-      const double joint = density_a * b_given_a.density / root;
-      result.white += step * bivariate_cumulative(a, columns.normal[i], b, rows.normal[j], rho);
-      result.gradient.x += step * density_a * b_given_a.cumulative / sigma_u;
-      result.gradient.y += step * density_b * a_given_b / sigma_v;
-      result.uu -= step * (a * density_a * b_given_a.cumulative + rho * joint) / blur.xx;
-      result.vv -= step * (b * density_b * a_given_b + rho * joint) / blur.yy;
-      result.uv += step * joint / (sigma_u * sigma_v);
+      add_corner({columns.at[i], rows.at[j]}, columns.normal[i], rows.normal[j], blur, {columns.sigma, rows.sigma}, step, result);
     }
   return result;
 }

@@ -41,6 +41,10 @@ class TagPattern {
   PatternSample sample(const glm::dvec2& cell, const Covariance2& blur_cells2) const;
 
  private:
+  PatternSample sample_near_one_corner(const glm::dvec2& cell, const Covariance2& blur_cells2, const glm::dvec2& sigma) const;
+  PatternSample sample_near_many(const glm::dvec2& cell, const Covariance2& blur_cells2) const;
+  double clamped(int column, int row) const;
+
   int cells_across_, margin_, side_;
   std::vector<float> white_;
 };

@@ -32,8 +32,7 @@ std::optional<PlanePoint> TagView::at(const glm::dvec2& ideal_px) const {
   PlanePoint point;
   point.cell = glm::dvec2(over_depth) * depth_m;
   point.point_camera_m = glm::dvec3((ideal_px - center_px_) * per_focal_px_, 1) * depth_m;
-  for (int i = 0; i < 2; ++i)
-    point.cell_per_px[i] = (glm::dvec2(cell_from_px_[i]) - point.cell * cell_from_px_[i].z) * depth_m;
+  for (int i = 0; i < 2; ++i) point.cell_per_px[i] = (glm::dvec2(cell_from_px_[i]) - point.cell * cell_from_px_[i].z) * depth_m;
   return point;
 }
 
