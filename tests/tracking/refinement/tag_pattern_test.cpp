@@ -153,6 +153,28 @@ TEST_P(TagPatternOf, AQuarterTurnOfThePrintTurnsTheSample) {
 }
 
 /// A plain one, data outside the square, unknown cells in the corners, and unknown cells in the middle.
+/// One corner is all that a blur of less than half a cell's reach can see, more come into sight beyond: both ways say the same.
+TEST_P(TagPatternOf, NothingJumpsWhereMoreThanOneCornerComesIntoSight) {
+  const TagPattern pattern(tag_layout(GetParam(), 0));
+  constexpr double kSigma = 0.5 / 3.5;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> place(0, pattern.cells_across());
+  for (int i = 0; i < 2000; ++i) {
+    const glm::dvec2 cell(place(random), place(random));
+    const auto sampled = [&](double sigma) { return pattern.sample(cell, {sigma * sigma, 0.2 * sigma * sigma, sigma * sigma}); };
+    const PatternSample one = sampled(kSigma * (1 - 1e-9)), many = sampled(kSigma * (1 + 1e-9));
+    ASSERT_EQ(one.known, many.known) << cell.x << ", " << cell.y;
+    if (!one.known) continue;
+    ASSERT_EQ(one.edge, many.edge) << cell.x << ", " << cell.y;
+    EXPECT_NEAR(one.white, many.white, 1e-6);
+    EXPECT_NEAR(one.gradient.x, many.gradient.x, 1e-5);
+    EXPECT_NEAR(one.gradient.y, many.gradient.y, 1e-5);
+    EXPECT_NEAR(one.uu, many.uu, 1e-4);
+    EXPECT_NEAR(one.uv, many.uv, 1e-4);
+    EXPECT_NEAR(one.vv, many.vv, 1e-4);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Families, TagPatternOf,
                          ::testing::Values("tag36h11", "tag16h5", "tagStandard41h12", "tagCircle21h7", "tagCustom48h12"),
                          [](const auto& family) { return std::string(family.param); });
