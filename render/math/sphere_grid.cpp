@@ -17,10 +17,16 @@ int SphereGrid::ring_of(int cell) const {
   return static_cast<int>(std::ranges::upper_bound(first_, cell) - first_.begin()) - 1;
 }
 
-int SphereGrid::cell_of(const glm::dvec3& direction) const {
-  const double latitude = std::asin(std::clamp(direction.y, -1.0, 1.0)) / glm::pi<double>() + 0.5;
-  const int ring = std::clamp(static_cast<int>(latitude * rings_), 0, rings_ - 1);
-  const double turn = std::atan2(direction.x, direction.z) / glm::two_pi<double>() + 0.5;
+int SphereGrid::ring_at(double y) const {
+  const double latitude = std::asin(std::clamp(y, -1.0, 1.0)) / glm::pi<double>() + 0.5;
+  return std::clamp(static_cast<int>(latitude * rings_), 0, rings_ - 1);
+}
+
+double SphereGrid::turn_of(const glm::dvec3& direction) {
+  return std::atan2(direction.x, direction.z) / glm::two_pi<double>() + 0.5;
+}
+
+int SphereGrid::cell_at(int ring, double turn) const {
   return first_[ring] + std::clamp(static_cast<int>(turn * columns(ring)), 0, columns(ring) - 1);
 }
 

@@ -12,7 +12,12 @@ class SphereGrid {
   explicit SphereGrid(int rings);
 
   int cells() const { return first_.back(); }
-  int cell_of(const glm::dvec3& direction) const;
+  int cell_of(const glm::dvec3& direction) const { return cell_at(ring_at(direction.y), turn_of(direction)); }
+  /// The ring that holds directions of that y (length 1).
+  int ring_at(double y) const;
+  /// Where the direction lies in its ring, from 0 to 1.
+  static double turn_of(const glm::dvec3& direction);
+  int cell_at(int ring, double turn) const;
   glm::dvec3 middle_of(int cell) const;
 
   /// Cells that share a border or a corner with `cell`.

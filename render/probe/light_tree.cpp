@@ -1,7 +1,9 @@
 #include "render/probe/light_tree.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "catchlight/color.hpp"
 #include "render/probe/cube_map.hpp"
@@ -15,22 +17,23 @@ constexpr int kCoarsestSize = 8;
 // the peak.
 constexpr float kPartOfWidth = 0.25f;
 
+constexpr int kLanes = 8;  // lobes that go through the tree side by side
+using Lanes [[gnu::vector_size(kLanes * sizeof(float))]] = float;
+using Mask [[gnu::vector_size(kLanes * sizeof(std::int32_t))]] = std::int32_t;  // -1 or 0 a lane
+
+[[gnu::always_inline]] inline bool any(const Mask& mask) {
+  using Halves [[gnu::vector_size(kLanes * sizeof(std::int32_t))]] = std::int64_t;
+  const auto halves = reinterpret_cast<const Halves&>(mask);
+  return (halves[0] | halves[1] | halves[2] | halves[3]) != 0;
+}
+
 }  // namespace
 
-struct LightTree::Lobe {
-  glm::vec3 axis;
-  float alpha2;
-  glm::vec3 light{0};
-  float weight = 0;
-
-  // D(h) n.l up to a constant, h half-way between the axis and the light.
-  float value(float n_l) const {
-    const float root = (1 + n_l) * 0.5f * (alpha2 - 1) + 1;
-    return std::max(n_l, 0.0f) / (root * root);
-  }
-
-  // Around the angle theta from its axis it changes over about (2 alpha)^2 + theta^2, squared: its tails fall as a power.
-  float width_squared(float n_l) const { return 4 * alpha2 + 2 * (1 - n_l); }
+// Lobes around axes that are near each other, all of one width.
+struct LightTree::Lobes {
+  Lanes axis_x{}, axis_y{}, axis_z{};
+  float alpha2 = 1;
+  Lanes red{}, green{}, blue{}, weight{};
 };
 
 LightTree::LightTree(const Image& cube) {
@@ -80,26 +83,69 @@ LightTree::Level LightTree::coarser_level(const Level& fine) {
   return level;
 }
 
-void LightTree::add(Lobe& lobe, std::size_t level, int face, int x, int y) const {
-  const Node& node = levels_[level].nodes[levels_[level].index(face, x, y)];
-  const float n_l = glm::dot(lobe.axis, node.middle);
-  if (n_l < -node.size_rad) return;  // wholly behind
-  const bool is_small = node.size_rad * node.size_rad < kPartOfWidth * kPartOfWidth * lobe.width_squared(n_l);
-  if (is_small || level + 1 == levels_.size()) {
-    lobe.light += lobe.value(glm::dot(lobe.axis, node.middle_of_light)) * node.flux;
-    lobe.weight += lobe.value(n_l) * node.solid_angle_sr;
-    return;
+// A node counts as one light for the lobes that it is small against, and is taken apart for the others. Each lobe meets its nodes
+// in the same order as if it were alone.
+[[gnu::target_clones("avx2", "default")]] void LightTree::add_all(std::span<const Level> levels, Lobes& lobes) {
+  struct Visit {
+    Mask lobes;
+    std::size_t level;
+    int face, x, y;
+  };
+  const Lanes axis_x = lobes.axis_x, axis_y = lobes.axis_y, axis_z = lobes.axis_z, zero = axis_x * 0;
+  Lanes red = zero, green = zero, blue = zero, weight = zero;
+  const float alpha2 = lobes.alpha2;
+  const auto project = [&](const glm::vec3& to, Lanes& n_l) __attribute__((always_inline)) {
+    n_l = axis_x * to.x + axis_y * to.y + axis_z * to.z;
+  };
+  // D(h) n.l up to a constant, h half-way between the axis and the light.
+  const auto weigh = [&](Lanes & n_l) __attribute__((always_inline)) {
+    const Lanes root = (1 + n_l) * 0.5f * (alpha2 - 1) + 1;
+    n_l = (n_l > zero ? n_l : zero) / (root * root);
+  };
+  std::array<Visit, 4 * 16> stack;
+  for (int root = 0; root < 6 * kCoarsestSize * kCoarsestSize; ++root) {
+    int open = 0;
+    stack[open++] = {axis_x == axis_x, 0, root / (kCoarsestSize * kCoarsestSize), root % kCoarsestSize,
+                     root / kCoarsestSize % kCoarsestSize};
+    while (open > 0) {
+      const Visit visit = stack[--open];
+      const Node& node = levels[visit.level].nodes[levels[visit.level].index(visit.face, visit.x, visit.y)];
+      Lanes n_l;
+      project(node.middle, n_l);
+      const Mask ahead = visit.lobes & (n_l >= -node.size_rad);  // of the others it is wholly behind
+      // Around the angle theta from its axis a lobe changes over about (2 alpha)^2 + theta^2, squared: its tails fall as a power.
+      const Mask is_small = node.size_rad * node.size_rad < kPartOfWidth * kPartOfWidth * (4 * alpha2 + 2 * (1 - n_l));
+      const bool is_leaf = visit.level + 1 == levels.size();
+      const Mask whole = is_leaf ? ahead : ahead & is_small, in_parts = ahead & ~whole;
+      if (any(whole)) {
+        Lanes light;
+        project(node.middle_of_light, light);
+        weigh(light), weigh(n_l);
+        light = whole ? light : zero;
+        red += light * node.flux.x, green += light * node.flux.y, blue += light * node.flux.z;
+        weight += whole ? n_l * node.solid_angle_sr : zero;
+      }
+      if (!any(in_parts)) continue;
+      for (int k = 3; k >= 0; --k)
+        stack[open++] = {in_parts, visit.level + 1, visit.face, 2 * visit.x + k % 2, 2 * visit.y + k / 2};
+    }
   }
-  for (int k = 0; k < 4; ++k) add(lobe, level + 1, face, 2 * x + k % 2, 2 * y + k / 2);
+  lobes.red = red, lobes.green = green, lobes.blue = blue, lobes.weight = weight;
 }
 
-glm::vec3 LightTree::under_lobe(const glm::vec3& reflected, float alpha) const {
-  Lobe lobe{reflected, alpha * alpha};
-  const int size = levels_.front().size;
-  for (int face = 0; face < 6; ++face) {
-    for (int k = 0; k < size * size; ++k) add(lobe, 0, face, k % size, k / size);
+void LightTree::under_lobes(std::span<const glm::vec3> reflected, float alpha, std::span<glm::vec3> means) const {
+  for (std::size_t first = 0; first < reflected.size(); first += kLanes) {
+    Lobes lobes;
+    lobes.alpha2 = alpha * alpha;
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      const glm::vec3 axis =
+          reflected[std::min(first + k, reflected.size() - 1)];  // lanes that are left over: the last one again
+      lobes.axis_x[k] = axis.x, lobes.axis_y[k] = axis.y, lobes.axis_z[k] = axis.z;
+    }
+    add_all(levels_, lobes);
+    for (std::size_t k = 0; k < kLanes && first + k < reflected.size(); ++k)
+      means[first + k] = glm::vec3(lobes.red[k], lobes.green[k], lobes.blue[k]) / lobes.weight[k];
   }
-  return lobe.light / lobe.weight;
 }
 
 }  // namespace catchlight::render

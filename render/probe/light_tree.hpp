@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "catchlight/image.hpp"
@@ -16,8 +17,9 @@ class LightTree {
   /// `cube`: six stacked faces, size a power of two from 8, 3 channels.
   explicit LightTree(const Image& cube);
 
-  /// Mean radiance around `reflected` (length 1), weighted by D(h) n.l for n = v = reflected.
-  glm::vec3 under_lobe(const glm::vec3& reflected, float alpha) const;
+  /// Mean radiance around each of `reflected` (length 1), weighted by D(h) n.l for n = v = reflected. Quick where neighbours in
+  /// the list are neighbours on the sphere; a mean does not depend on which others are asked for.
+  void under_lobes(std::span<const glm::vec3> reflected, float alpha, std::span<glm::vec3> means) const;
 
  private:
   struct Node {
@@ -32,11 +34,11 @@ class LightTree {
     std::vector<Node> nodes;
     std::size_t index(int face, int x, int y) const { return (static_cast<std::size_t>(face) * size + y) * size + x; }
   };
-  struct Lobe;
+  struct Lobes;
 
   static Level finest_level(const Image& cube);
   static Level coarser_level(const Level& fine);
-  void add(Lobe& lobe, std::size_t level, int face, int x, int y) const;
+  static void add_all(std::span<const Level> levels, Lobes& lobes);
 
   std::vector<Level> levels_;  ///< coarsest (8 x 8 a face) first
 };

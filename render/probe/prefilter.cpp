@@ -49,15 +49,25 @@ Image cube_of(const Probe& probe, const glm::dmat3& probe_from_tag, int size) {
   const int taps = std::clamp(static_cast<int>(std::ceil(4.0 * face_size_for(probe, 0) / size)), 4, 32);
   Image cube(size, 6 * size);
   parallel_for(cube.height, 0, [&](std::size_t row) {
-    const int y = static_cast<int>(row) % size, face = static_cast<int>(row) / size;
-    for (int x = 0; x < size; ++x) {
-      glm::dvec3 sum(0);
-      for (int tap = 0; tap < taps * taps; ++tap) {
-        const double s = 2 * (x + (tap % taps + 0.5) / taps) / size - 1, t = 2 * (y + (tap / taps + 0.5) / taps) / size - 1;
-        sum += glm::dvec3(sample(probe, probe_from_tag * cube_direction(face, s, t)));
+    const int y = static_cast<int>(row) % size;
+    const CubeFace& face = gl_cube_faces()[row / size];
+    const std::size_t across = static_cast<std::size_t>(size) * taps;
+    Coordinates3 directions(across);
+    std::vector<glm::vec3> radiance(across);
+    std::vector<glm::dvec3> sums(size, glm::dvec3(0));
+    const auto place = [&](std::size_t tap) { return 2 * ((static_cast<double>(tap) + 0.5) / taps) / size - 1; };
+    for (int tap_row = 0; tap_row < taps; ++tap_row) {
+      const glm::dvec3 left = probe_from_tag * (face.centre + place(static_cast<std::size_t>(y) * taps + tap_row) * face.down);
+      const glm::dvec3 right = probe_from_tag * face.right;
+      for (std::size_t i = 0; i < across; ++i) {
+        const glm::dvec3 direction = left + place(i) * right;
+        directions.x[i] = direction.x, directions.y[i] = direction.y, directions.z[i] = direction.z;
       }
-      for (int c = 0; c < 3; ++c) cube.pixel(x, static_cast<int>(row))[c] = static_cast<float>(sum[c] / (taps * taps));
+      sample(probe, directions, radiance);
+      for (std::size_t i = 0; i < across; ++i) sums[i / taps] += glm::dvec3(radiance[i]);
     }
+    for (int x = 0; x < size; ++x)
+      for (int c = 0; c < 3; ++c) cube.pixel(x, static_cast<int>(row))[c] = static_cast<float>(sums[x][c] / (taps * taps));
   });
   return cube;
 }
@@ -72,11 +82,11 @@ Image filtered(const LightTree& light, int size, double roughness) {
   Image level(size, 6 * size);
   parallel_for(level.height, 0, [&](std::size_t row) {
     const int y = static_cast<int>(row) % size, face = static_cast<int>(row) / size;
-    for (int x = 0; x < size; ++x) {
-      const glm::vec3 value =
-          light.under_lobe(glm::vec3(cube_texel_direction(face, size, x, y)), static_cast<float>(roughness * roughness));
-      for (int c = 0; c < 3; ++c) level.pixel(x, static_cast<int>(row))[c] = value[c];
-    }
+    std::vector<glm::vec3> directions(size), means(size);
+    for (int x = 0; x < size; ++x) directions[x] = glm::vec3(cube_texel_direction(face, size, x, y));
+    light.under_lobes(directions, static_cast<float>(roughness * roughness), means);
+    for (int x = 0; x < size; ++x)
+      for (int c = 0; c < 3; ++c) level.pixel(x, static_cast<int>(row))[c] = means[x][c];
   });
   return level;
 }

@@ -25,8 +25,8 @@ glm::vec3 bilinear(const glm::dvec2& position, const Fetch& fetch) {
   return glm::mix(glm::mix(fetch(x, y), fetch(x + 1, y), right), glm::mix(fetch(x, y + 1), fetch(x + 1, y + 1), right), down);
 }
 
-glm::vec3 sample_latlong(const Image& image, const glm::dvec3& direction) {
-  return bilinear(texel_from_direction(ProbeLayout::latlong, image.width, image.height, direction), [&](int x, int y) {
+glm::vec3 sample_latlong(const Image& image, const glm::dvec2& position) {
+  return bilinear(position, [&](int x, int y) {
     y = std::clamp(y, 0, image.height - 1);
     // The outermost columns are the same meridian.
     if (x <= 0 || x >= image.width - 1) return 0.5f * (texel(image, 0, y) + texel(image, image.width - 1, y));
@@ -139,8 +139,23 @@ glm::ivec2 size_of_width(ProbeLayout layout, int width) {
 }  // namespace
 
 glm::vec3 sample(const Probe& probe, const glm::dvec3& direction) {
-  if (probe.layout == ProbeLayout::latlong) return sample_latlong(probe.image, direction);
+  if (probe.layout == ProbeLayout::latlong) {
+    const int width = probe.image.width, height = probe.image.height;
+    return sample_latlong(probe.image, texel_from_direction(probe.layout, width, height, direction));
+  }
   return is_disc(probe.layout) ? sample_disc(probe, direction) : sample_cube(probe, direction);
+}
+
+void sample(const Probe& probe, const Coordinates3& directions, std::span<glm::vec3> radiance) {
+  if (probe.layout != ProbeLayout::latlong) {
+    for (std::size_t i = 0; i < radiance.size(); ++i)
+      radiance[i] = sample(probe, glm::dvec3(directions.x[i], directions.y[i], directions.z[i]));
+    return;
+  }
+  Coordinates2 texels(radiance.size());
+  texels_from_directions(probe.layout, probe.image.width, probe.image.height, directions, texels);
+  for (std::size_t i = 0; i < radiance.size(); ++i)
+    radiance[i] = sample_latlong(probe.image, glm::dvec2(texels.x[i], texels.y[i]));
 }
 
 Probe convert(const Probe& probe, ProbeLayout layout, int width) {

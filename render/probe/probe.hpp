@@ -4,6 +4,7 @@
 #include <array>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "catchlight/error.hpp"
@@ -11,6 +12,7 @@
 #include "catchlight/util/enum_names.hpp"
 #include "render/math/sh.hpp"
 #include "render/probe/probe_layouts.hpp"
+#include "render/probe/texel_rows.hpp"
 
 namespace catchlight::render {
 
@@ -21,6 +23,9 @@ struct Probe {
 
 /// Bilinear radiance in `direction`, continuous across the layout's seams.
 glm::vec3 sample(const Probe& probe, const glm::dvec3& direction);
+
+/// The same for many directions, of any length.
+void sample(const Probe& probe, const Coordinates3& directions, std::span<glm::vec3> radiance);
 
 /// The same light in another layout, averaged over each texel. `width` 0 keeps the angular resolution at the equator.
 Probe convert(const Probe& probe, ProbeLayout layout, int width = 0);

@@ -1,52 +1,81 @@
 // A probe's light as a whole: sums over all its texels.
 #include <algorithm>
+#include <array>
+#include <span>
 #include <vector>
 
 #include "catchlight/util/parallel.hpp"
 #include "render/probe/probe.hpp"
+#include "render/probe/texel_rows.hpp"
 
 namespace catchlight::render {
 namespace {
 
-// Sum over the image of add(sum, direction, radiance * solid angle), in an order that does not depend on the threads.
-template <typename Sum, typename Add>
-Sum sum_over_texels(const Probe& probe, const Sum& zero, const Add& add) {
-  const int width = probe.image.width, height = probe.image.height;
-  std::vector<Sum> rows(height, zero);
-  parallel_for(height, 0, [&](std::size_t row) {
-    const int y = static_cast<int>(row);
-    for (int x = 0; x < width; ++x) {
-      const auto direction = direction_from_texel(probe.layout, width, height, x, y);
-      if (!direction) continue;
-      const float* radiance = probe.image.pixel(x, y);
-      const double solid_angle = texel_solid_angle(probe.layout, width, height, x, y);
-      add(rows[row], *direction, solid_angle * glm::dvec3(radiance[0], radiance[1], radiance[2]));
-    }
-  });
-  Sum total = zero;
-  for (const Sum& row : rows) {
-    for (std::size_t i = 0; i < total.size(); ++i) total[i] += row[i];
+// The row's texels that hold light: their directions, and radiance * solid angle.
+struct LitRow {
+  std::vector<float> x, y, z;
+  std::array<std::vector<float>, 3> light;
+};
+
+LitRow lit_row(const Probe& probe, const TexelRows& texels, int y) {
+  LitRow row;
+  for (auto* values : {&row.x, &row.y, &row.z, &row.light[0], &row.light[1], &row.light[2]}) values->reserve(probe.image.width);
+  for (int x = 0; x < probe.image.width; ++x) {
+    const auto direction = texels.direction(x, y);
+    if (!direction) continue;
+    row.x.push_back(static_cast<float>(direction->x)), row.y.push_back(static_cast<float>(direction->y));
+    row.z.push_back(static_cast<float>(direction->z));
+    const auto solid_angle = static_cast<float>(texels.solid_angle(x, y));
+    for (int c = 0; c < 3; ++c) row.light[c].push_back(solid_angle * probe.image.pixel(x, y)[c]);
   }
+  return row;
+}
+
+// Sum over the image of add(sum, row), in an order that does not depend on the threads. A sum: `count` values a channel.
+using Sums = std::array<std::vector<double>, 3>;
+
+template <typename Add>
+Sums sum_over_rows(const Probe& probe, std::size_t count, const Add& add) {
+  const TexelRows texels(probe.layout, probe.image.width, probe.image.height);
+  const std::vector<double> zero(count);
+  std::vector<Sums> rows(probe.image.height, Sums{zero, zero, zero});
+  parallel_for(rows.size(), 0, [&](std::size_t y) { add(rows[y], lit_row(probe, texels, static_cast<int>(y))); });
+  Sums total{zero, zero, zero};
+  for (const Sums& row : rows)
+    for (int c = 0; c < 3; ++c)
+      for (std::size_t i = 0; i < count; ++i) total[c][i] += row[c][i];
   return total;
 }
 
 }  // namespace
 
 ShRgb project_to_sh(const Probe& probe, int bands) {
-  const std::vector<glm::dvec3> zero(sh_count(bands), glm::dvec3(0));
-  const auto sum = sum_over_texels(probe, zero, [bands](auto& row, const glm::dvec3& direction, const glm::dvec3& light) {
-    double basis[kMaxShBands * kMaxShBands];
-    evaluate_sh(direction, bands, std::span<double>(basis, row.size()));
-    for (std::size_t i = 0; i < row.size(); ++i) row[i] += basis[i] * light;
+  constexpr std::size_t kPart = 256;  // texels that are summed in single precision
+  const Sums sums = sum_over_rows(probe, sh_count(bands), [&](Sums& sum, const LitRow& row) {
+    for (std::size_t first = 0; first < row.x.size(); first += kPart) {
+      const auto part = [&](const std::vector<float>& values) {
+        return std::span(values).subspan(first, std::min(kPart, values.size() - first));
+      };
+      for (int c = 0; c < 3; ++c) {
+        std::vector<float> part_sum(sh_count(bands));
+        add_sh(part(row.x), part(row.y), part(row.z), part(row.light[c]), bands, part_sum);
+        for (std::size_t i = 0; i < part_sum.size(); ++i) sum[c][i] += static_cast<double>(part_sum[i]);
+      }
+    }
   });
-  return {sum.begin(), sum.end()};
+  ShRgb coefficients;
+  for (std::size_t i = 0; i < sums[0].size(); ++i) coefficients.emplace_back(sums[0][i], sums[1][i], sums[2][i]);
+  return coefficients;
 }
 
 glm::dvec3 irradiance(const Probe& probe, const glm::dvec3& normal_probe) {
-  const std::vector<glm::dvec3> zero(1, glm::dvec3(0));
-  return sum_over_texels(probe, zero, [&](auto& row, const glm::dvec3& direction, const glm::dvec3& light) {
-    row[0] += std::max(0.0, glm::dot(direction, normal_probe)) * light;
-  })[0];
+  const Sums sums = sum_over_rows(probe, 1, [&](Sums& sum, const LitRow& row) {
+    for (std::size_t i = 0; i < row.x.size(); ++i) {
+      const double cosine = glm::dot(glm::dvec3(row.x[i], row.y[i], row.z[i]), normal_probe);
+      for (int c = 0; c < 3; ++c) sum[c][0] += std::max(0.0, cosine) * static_cast<double>(row.light[c][i]);
+    }
+  });
+  return {sums[0][0], sums[1][0], sums[2][0]};
 }
 
 }  // namespace catchlight::render

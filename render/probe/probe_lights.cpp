@@ -4,7 +4,7 @@ namespace catchlight::render {
 namespace {
 
 // Raise when the prefilter, the split or their members change: older files then no longer match.
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 void archive_map(CacheStream& file, ReflectionMap& map) {
   file.for_each(map.levels, [&](Image& level) {

@@ -8,6 +8,7 @@
 #include "catchlight/color.hpp"
 #include "catchlight/util/parallel.hpp"
 #include "render/probe/light_clusters.hpp"
+#include "render/probe/texel_rows.hpp"
 
 namespace catchlight::render {
 namespace {
@@ -32,24 +33,39 @@ struct Brightness {
   std::vector<double> solid_angle_sr, luminance;
 };
 
+// Sets sky.cell_of. A latlong's row lies in one ring, and its columns in the same turns in every row.
+void find_cells(ProbeLayout layout, int width, const TexelRows& texels, Brightness& sky) {
+  const int height = static_cast<int>(sky.cell_of.size()) / width;
+  std::vector<double> turns;
+  for (int x = 0; layout == ProbeLayout::latlong && x < width; ++x)
+    turns.push_back(SphereGrid::turn_of(*texels.direction(x, height / 2)));
+  parallel_for(height, 0, [&](std::size_t row) {
+    const int y = static_cast<int>(row);
+    int* cells = &sky.cell_of[row * width];
+    const int ring = turns.empty() ? 0 : sky.grid.ring_at(texels.direction(0, y)->y);
+    for (int x = 0; x < width; ++x) {
+      if (!turns.empty())
+        cells[x] = sky.grid.cell_at(ring, turns[x]);
+      else if (const auto direction = texels.direction(x, y))
+        cells[x] = sky.grid.cell_of(*direction);
+    }
+  });
+}
+
 Brightness gather(const Probe& probe) {
   const int width = probe.image.width, height = probe.image.height;
   // No finer than the probe, or cells between its texels would tear lights apart.
   const int rings = std::clamp(static_cast<int>(std::sqrt(width * static_cast<double>(height)) / 3), 6, kMaxRings);
   Brightness sky{SphereGrid(rings), std::vector<int>(static_cast<std::size_t>(width) * height, kNoCluster), {}, {}};
-  parallel_for(height, 0, [&](std::size_t row) {
-    for (int x = 0; x < width; ++x) {
-      const auto direction = direction_from_texel(probe.layout, width, height, x, static_cast<double>(row));
-      if (direction) sky.cell_of[row * width + x] = sky.grid.cell_of(*direction);
-    }
-  });
+  const TexelRows texels(probe.layout, width, height);
+  find_cells(probe.layout, width, texels, sky);
   sky.solid_angle_sr.resize(sky.grid.cells());
   sky.luminance.resize(sky.grid.cells());
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const int cell = sky.cell_of[static_cast<std::size_t>(y) * width + x];
       if (cell == kNoCluster) continue;
-      const double solid_angle = texel_solid_angle(probe.layout, width, height, x, y);
+      const double solid_angle = texels.solid_angle(x, y);
       sky.solid_angle_sr[cell] += solid_angle;
       sky.luminance[cell] += solid_angle * luminance_of(probe.image.pixel(x, y));
     }

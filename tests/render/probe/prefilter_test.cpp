@@ -1,6 +1,7 @@
 #include "render/probe/prefilter.hpp"
 #include "catchlight/image.hpp"
 #include "render/probe/cube_map.hpp"
+#include "render/probe/light_tree.hpp"
 
 #include <gtest/gtest.h>
 
@@ -176,6 +177,25 @@ TEST(Prefilter, GivesTheSameBytesTwice) {
   const Probe probe = latlong_of(64, [](const glm::dvec3& d) { return glm::dvec3(1 + d.x, 1 + d.y, 1 + d.z); });
   const ReflectionMap one = prefilter_reflections(probe, glm::dmat3(1)), other = prefilter_reflections(probe, glm::dmat3(1));
   for (std::size_t k = 0; k < one.levels.size(); ++k) EXPECT_EQ(one.levels[k].data, other.levels[k].data);
+}
+
+// Eight lobes go through the tree together, and meet its nodes as each alone.
+TEST(LightTrees, MeansDoNotDependOnTheirCompany) {
+  Image cube(32, 6 * 32);
+  for (std::size_t i = 0; i < cube.data.size(); ++i) cube.data[i] = 1 + std::sin(0.37f * static_cast<float>(i));
+  cube.pixel(7, 40)[0] = 3000;
+  const LightTree tree(cube);
+  std::vector<glm::vec3> directions;
+  for (int i = 0; i < 19; ++i) directions.push_back(glm::vec3(cube_texel_direction(i % 6, 32, i, 31 - i)));
+  for (const float alpha : {0.02f, 0.2f, 1.0f}) {
+    std::vector<glm::vec3> means(directions.size());
+    tree.under_lobes(directions, alpha, means);
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+      glm::vec3 alone;
+      tree.under_lobes({&directions[i], 1}, alpha, {&alone, 1});
+      EXPECT_EQ(means[i], alone) << i;
+    }
+  }
 }
 
 TEST(EnvironmentBrdf, WhiteMirrorReflectsAllAndRoughOnesNeverMore) {

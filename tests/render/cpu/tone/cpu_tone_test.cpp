@@ -179,7 +179,7 @@ TEST(ClassicGlare, DoesNotRememberTheFrameBefore) {
     kept.draw(light);
     fresh.draw(light);
     for (int y = 0; y < light.height; ++y) {
-      std::vector<Texel> again(320), anew(320);
+      std::vector<Float4> again(320), anew(320);
       kept.add_to_row(y, again.data());
       fresh.add_to_row(y, anew.data());
       for (std::size_t i = 0; i < again.size(); ++i)
