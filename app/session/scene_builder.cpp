@@ -10,6 +10,7 @@
 #include "catchlight/util/text.hpp"
 #include "render/cache/content_cache.hpp"
 #include "render/math/sh.hpp"
+#include "render/mesh/mesh_file.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -78,10 +79,19 @@ std::string probe_key(const SceneSettings& settings) {
          (probe.strict ? " strict" : "");
 }
 
-std::string mesh_key(const SceneSettings& settings) {
+std::vector<std::string> files_of_objects(const SceneSettings& settings) {
+  std::vector<std::string> files;
+  for (const SceneSettings::Object& object : settings.objects)
+    for (const std::string& file : render::files_of_mesh(settings.resolve(object.mesh))) files.push_back(file);
+  return files;
+}
+
+/// `files`: those that the objects were read from.
+std::string mesh_key(const SceneSettings& settings, const std::vector<std::string>& files) {
   std::string key;
+  for (const std::string& file : files) key += file_key(file);
   for (const SceneSettings::Object& object : settings.objects) {
-    key += file_key(settings.resolve(object.mesh));
+    key += settings.resolve(object.mesh) + '\n';
     const glm::dmat4 place = object.tag_from_object();
     for (int column = 0; column < 4; ++column) key += text_of(place[column]);
   }
@@ -142,15 +152,25 @@ void SceneBuilder::load_parts(const SceneSettings& settings, const WarningHandle
     built_.probe = load_scene_probe(settings, warn);
     probe_content_ = render::content_key(built_.probe);
   });
-  renew(ScenePart::mesh, mesh_key(settings), [&](auto&) {
+  // Which files there are is asked only where a change shows in those that are known: to find them, they must be read.
+  std::string key = mesh_key(settings, mesh_files_);
+  if (parts_[static_cast<std::size_t>(ScenePart::mesh)].key != key) {
+    mesh_files_ = files_of_objects(settings);
+    key = mesh_key(settings, mesh_files_);
+  }
+  renew(ScenePart::mesh, key, [&](auto&) {
     built_.scene.mesh = load_objects(settings, warn);
     built_.scene.probe_in_tag_m = glm::vec3(probe_in_tag_m(built_.scene.mesh));
   });
   built_.light_gain = std::exp2(settings.probe.ev);
   built_.orientation = light_orientation(settings.probe);
-  built_.still_irradiance_over_pi = built_.orientation.follows_camera
-                                        ? glm::dvec3(0.0)
-                                        : built_.light_gain * irradiance_over_pi(built_, built_.orientation.fixed_from_light);
+  const glm::dmat3& fixed_from_light = built_.orientation.fixed_from_light;
+  const std::string lie = probe_key(settings) + (built_.orientation.follows_camera ? " camera " : " tag ") +
+                          frame_key(fixed_from_light * built_.orientation.light_from_probe);
+  if (summed_ != lie)
+    irradiance_over_pi_ = built_.orientation.follows_camera ? glm::dvec3(0.0) : irradiance_over_pi(built_, fixed_from_light);
+  summed_ = lie;
+  built_.still_irradiance_over_pi = built_.light_gain * irradiance_over_pi_;
 }
 
 void SceneBuilder::bake(const SceneSettings& settings, const WarningHandler& warn, const ProgressHandler& progress) {
@@ -164,7 +184,7 @@ void SceneBuilder::bake(const SceneSettings& settings, const WarningHandler& war
       has_receiver ? render::receiver_grid_for(mesh, settings.quality.receiver_points) : render::ReceiverGrid{};
   if (has_receiver) {
     const std::string key =
-        probe_key(settings) + mesh_key(settings) + (built_.orientation.follows_camera ? " camera " : " tag ") +
+        probe_key(settings) + mesh_key(settings, mesh_files_) + (built_.orientation.follows_camera ? " camera " : " tag ") +
         frame_key(built_.orientation.fixed_from_light * built_.orientation.light_from_probe) + text_of(settings.receiver.albedo);
     renew(ScenePart::receiver_albedo, key, [&](auto& plan) {
       receiver_albedo_ = choose_receiver_albedo(built_, probe_content_, settings.receiver.albedo, warn, plan);

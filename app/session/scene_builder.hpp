@@ -74,7 +74,10 @@ class SceneBuilder {
 
   BuiltScene built_;
   std::array<Part, kSceneParts> parts_;
-  std::string probe_content_;  ///< render::content_key of the probe
+  std::vector<std::string> mesh_files_;  ///< all that the objects were read from
+  std::string summed_;                   ///< how the probe lay that irradiance_over_pi_ is of
+  glm::dvec3 irradiance_over_pi_{0.0};   ///< still_irradiance_over_pi before probe.ev
+  std::string probe_content_;            ///< render::content_key of the probe
   render::ReceiverAlbedo receiver_albedo_;
   // The light as the probe's file has it, before probe.ev.
   render::ReflectionMap reflections_;

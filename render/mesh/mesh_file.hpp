@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "catchlight/error.hpp"
 #include "render/mesh/mesh.hpp"
@@ -13,5 +14,9 @@ namespace catchlight::render {
 /// finely as the vertices. Triangles without area are left out with a warning. Throws Error naming the file: unreadable, no
 /// triangles, non-finite positions, indices out of range, an unknown required extension.
 Mesh load_mesh(const std::string& path, const WarningHandler& warn);
+
+/// The files that load_mesh reads for that one: itself first, then those that it names (glTF's buffers and textures, OBJ's
+/// material libraries). A file that cannot be read names none.
+std::vector<std::string> files_of_mesh(const std::string& path);
 
 }  // namespace catchlight::render

@@ -71,6 +71,18 @@ TEST_F(SceneBuild, ConstantLightOnTheTagIsItsRadiance) {
   EXPECT_NEAR(tag_irradiance_over_pi(build(), {}).g, 0.5, 0.005);  // a 64 x 32 probe's horizon is a texel thick
 }
 
+TEST_F(SceneBuild, MaterialLibraryOfAMeshIsPartOfIt) {
+  folder_.write("square.mtl", "newmtl paint\nKd 0.2 0.4 0.6\n");
+  folder_.write("square.obj", std::string("mtllib square.mtl\nusemtl paint\n") + kSquare);
+  SceneBuilder builder;
+  EXPECT_NEAR(builder.load(scene_, ignore).scene.mesh.materials.back().base_color.g, 0.4, 1e-6);
+  builder.load(scene_, ignore);
+  EXPECT_EQ(builder.times_made(ScenePart::mesh), 1);
+  folder_.write("square.mtl", "newmtl paint\nKd 0.2 0.75 0.6\n");
+  EXPECT_NEAR(builder.load(scene_, ignore).scene.mesh.materials.back().base_color.g, 0.75, 1e-6);
+  EXPECT_EQ(builder.times_made(ScenePart::mesh), 2);
+}
+
 TEST_F(SceneBuild, ProbeEvDoublesEverythingTheLightGives) {
   const BuiltScene plain = build();
   scene_.probe.ev = 1;

@@ -3,7 +3,7 @@
 #include "render/mesh/mesh_file.hpp"
 #include "tests/support/test_files.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>
@@ -297,6 +297,15 @@ TEST_F(GltfFile, BaseColourTextureEndsUpInTheVertices) {
   EXPECT_LT(glm::distance(moved.vertices[0].color, glm::vec3(grey)), 1e-6f);
   write_text(folder_ / "texture.png", "no picture");
   EXPECT_NE(load_error(textured("")).find("texture.png"), std::string::npos);
+}
+
+TEST_F(GltfFile, NamesTheFilesThatItIsReadFrom) {
+  write_text(folder_ / "a.gltf", R"({"buffers":[{"uri":"a.bin"},{"uri":"data:x,y"},{}],"images":[{"uri":"textures/b.png"}]})");
+  EXPECT_THAT(files_of_mesh(folder_ / "a.gltf"),
+              testing::ElementsAre(folder_ / "a.gltf", folder_ / "a.bin", folder_ / "textures/b.png"));
+  write_text(folder_ / "broken.gltf", R"({"buffers":[{"uri)");
+  EXPECT_THAT(files_of_mesh(folder_ / "broken.gltf"), testing::ElementsAre(folder_ / "broken.gltf"));
+  EXPECT_THAT(files_of_mesh(folder_ / "missing.obj"), testing::ElementsAre(folder_ / "missing.obj"));
 }
 
 TEST_F(GltfFile, NonFinitePositionsAreRefused) {
