@@ -63,9 +63,9 @@ PlaneRect shadow_reach(std::span<const LightSample> samples_tag, const OpenPlane
   return reach;
 }
 
-ReceiverTexels receiver_texels(const PlaneRect& reach, const Bounds& box) {
-  const float texel_m = box.diagonal_m() / kTexelsAcrossObject;
-  const glm::ivec2 size = glm::clamp(glm::ivec2((reach.max_m - reach.min_m) / texel_m) + 8, kMinTexels, kMaxTexels);
+ReceiverTexels receiver_texels(const PlaneRect& reach, const Bounds& box, int coarser) {
+  const float texel_m = static_cast<float>(coarser) * box.diagonal_m() / kTexelsAcrossObject;
+  const glm::ivec2 size = glm::clamp(glm::ivec2((reach.max_m - reach.min_m) / texel_m) + 8, kMinTexels, kMaxTexels / coarser);
   const glm::vec2 margin_m = 4.0f * (reach.max_m - reach.min_m) / glm::vec2(size - 8);
   return {{reach.min_m - margin_m, reach.max_m + margin_m}, size};
 }

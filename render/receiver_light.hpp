@@ -45,7 +45,7 @@ struct ReceiverTexels {
 };
 
 /// The texels for a reach that is not empty: 192 across the object, at most 1024 along a side, and a few more around the reach,
-/// over which the shadow fades where it was cut off.
-ReceiverTexels receiver_texels(const PlaneRect& reach, const Bounds& box);
+/// over which the shadow fades where it was cut off. `coarser`: so many times fewer each way.
+ReceiverTexels receiver_texels(const PlaneRect& reach, const Bounds& box, int coarser = 1);
 
 }  // namespace catchlight::render

@@ -50,9 +50,8 @@ SurfaceHit surface_at(RayHit hit, vec3 direction) {
 vec3 ray_start(vec3 position, vec3 n) { return position + n * (0.05 * view.probe_in_tag_m.w); }
 
 // Radiance that arrives at `origin` from `direction`. The ray stands for a bundle of half width `spread`, as wide as the lobe of a
-// surface of `roughness`, which surfaces on its way spread further; `share` of such a lobe's width is one ray's. `index`: its number
-// in its lobe.
-vec3 radiance_along(vec3 origin, vec3 direction, float spread, float roughness, float share, int index, bool with_lights) {
+// surface of `roughness`, which surfaces on its way spread further. `index`: its number in its lobe.
+vec3 radiance_along(vec3 origin, vec3 direction, float spread, float roughness, int index, bool with_lights) {
   vec3 sum = vec3(0.0), through = vec3(1.0);
   for (int bounce = 0; view.options.x > 0; ++bounce) {
     RayHit hit = RayHit(uvec4(0u), 1e30, vec2(0.0));
@@ -63,7 +62,7 @@ vec3 radiance_along(vec3 origin, vec3 direction, float spread, float roughness, 
     through *= surface.factor;
     vec3 position = origin + hit.distance_m * direction;
     bool follows = bounce < kMoreBounces && surface.mirrors_on;
-    float of_lobe = follows ? share * surface.roughness : surface.roughness;
+    float of_lobe = follows ? kFurtherShare * surface.roughness : surface.roughness;
     spread += of_lobe * of_lobe;
     roughness = wider(roughness, of_lobe);
     with_lights = true;
@@ -84,7 +83,7 @@ vec3 mirrored_radiance(vec3 position, vec3 n, vec3 to_viewer, float roughness, b
   // Without rays of its own the whole lobe is read from the prefiltered probe, in the mirror direction.
   bool traced = view.options.x > 0;
   float share = traced ? pow(float(rays), -0.25) * roughness : roughness, alpha = traced ? roughness * roughness : 0.0;
-  float spread = share * share + 0.25 * length(dx + dy), further = pow(max(float(view.options.x), 1.0), -0.25);
+  float spread = share * share + 0.25 * length(dx + dy);
   mat3 surface_frame = frame_around(n);
   vec3 viewer = to_viewer * surface_frame, sum = vec3(0.0);
   vec3 origin = ray_start(position, n);
@@ -95,7 +94,7 @@ vec3 mirrored_radiance(vec3 position, vec3 n, vec3 to_viewer, float roughness, b
     float above = dot(direction, n);
     if (above <= 0.0) continue;
     float weight = lobe_weight(above, alpha);
-    sum += weight * radiance_along(origin, normalize(direction), spread, share, further, i, with_lights);
+    sum += weight * radiance_along(origin, normalize(direction), spread, share, i, with_lights);
     weights += weight;
   }
   return weights > 0.0 ? sum / weights : probe_radiance(mirror, roughness, with_lights);

@@ -78,9 +78,10 @@ SceneNeeds CpuCompositor::Impl::needs() const {
 
 /// The light turns against the object only where the probe is fixed to the camera.
 void CpuCompositor::Impl::relight(const glm::dmat3& tag_from_light) {
-  const SplitLight light_tag = tag_from_light == glm::dmat3(1.0) ? light_probe : turned(light_probe, tag_from_light);
-  object.light_by(light_tag);
-  if (receiver) receiver->update(light_tag);
+  const bool stands_still = tag_from_light == glm::dmat3(1.0);
+  const SplitLight light_tag = stands_still ? light_probe : turned(light_probe, tag_from_light);
+  object.light_by(light_tag, stands_still);
+  if (receiver) receiver->update(light_tag, stands_still);
   lit_from = tag_from_light;
 }
 

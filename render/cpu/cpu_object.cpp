@@ -43,13 +43,12 @@ CpuObject::CpuObject(const RenderScene& scene, const RayScene& rays, const Bound
       around_(probe_, rest_, scene.probe_in_tag_m),
       finder_(scene.mesh, rays, samples),
       direct_(scene.mesh, rays, bounds),
-      mirror_rays_(scene.mesh, rays, materials_, brdf_, reflection_rays,
-                   bounds.empty() ? 0 : kSkinShare * bounds.rounded_diagonal_m()),
+      mirror_rays_(scene.mesh, rays, materials_, brdf_, bounds.empty() ? 0 : kSkinShare * bounds.rounded_diagonal_m()),
       mirrored_(materials_, mirror_rays_, reflection_rays) {}
 
-void CpuObject::light_by(const SplitLight& light_tag) {
+void CpuObject::light_by(const SplitLight& light_tag, bool stands_still) {
   exit_radiance_ = transferred_light(scene_.transfer.object, scene_.transfer.object_direct, light_tag);
-  direct_.set_samples(light_tag.samples);
+  direct_.set_samples(light_tag.samples, stands_still);
   highlights_.set_samples(light_tag.samples);
 }
 
@@ -109,7 +108,9 @@ void CpuObject::draw(const FrameView& view, const FramePlan& plan, const PixelRa
   drawn_ = intersect(visible_rect(view.camera, plan.distortion_limit, view.camera_from_tag, bounds_, kNear_m), plan.virtual_rect);
   if (drawn_.empty()) return;
   around_.set_view(view, plan.distortion_limit, shadow, plate);
-  mirror_rays_.set_frame(around_, {exit_radiance_, direct_.at_vertices_over_pi()}, view.exposure);
+  VertexLight light{exit_radiance_};
+  if (materials_.reflects) light.direct_over_pi = direct_.at_vertices_over_pi();
+  mirror_rays_.set_frame(around_, light, view.exposure);
   const VisibleSurface& surface = finder_.find(view, plan.distortion_limit, pixel_rays, drawn_, exit_radiance_);
   direct_.prepare(surface.points);
   put(view, plan, surface, mirrored_.find(surface, around_, !direct_.samples().empty()), images);

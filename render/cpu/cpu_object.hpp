@@ -30,8 +30,8 @@ class CpuObject {
   /// Keeps references. `samples` of a pixel's outline, `reflection_rays` over a rough surface's lobe.
   CpuObject(const RenderScene& scene, const RayScene& rays, const Bounds& bounds, int samples, int reflection_rays);
 
-  /// Takes over the light, in the tag frame; needed again when it turns.
-  void light_by(const SplitLight& light_tag);
+  /// Takes over the light, in the tag frame; needed again when it turns. `stands_still`: it does not turn with every frame.
+  void light_by(const SplitLight& light_tag, bool stands_still);
 
   bool reflects() const { return materials_.reflects; }
   bool emits() const { return materials_.emits; }

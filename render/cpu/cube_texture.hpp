@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "render/cpu/float4.hpp"
+#include "render/math/float4.hpp"
 #include "render/probe/prefilter.hpp"
 
 namespace catchlight::render {

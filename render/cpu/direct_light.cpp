@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <limits>
+#include <utility>
 
 #include "catchlight/util/parallel.hpp"
 
@@ -14,6 +15,8 @@ namespace {
 /// Shares of the object's diagonal: how far above a surface its shadow is looked for, which smoothed normals need; how fine
 /// shadows are kept.
 constexpr float kLiftShare = 1.5f / 512, kLatticeShare = 1.0f / 384;
+/// How much coarser shadows are that are found for one frame alone.
+constexpr float kCoarser = 3;
 constexpr std::uint16_t kMaxLatticeSteps = 96;
 constexpr std::size_t kVerticesAtOnce = 256;
 
@@ -43,14 +46,18 @@ DirectLight::DirectLight(const Mesh& mesh, const RayScene& rays, const Bounds& o
     : mesh_(mesh),
       rays_(rays),
       lift_m_(object.empty() ? 0 : kLiftShare * object.rounded_diagonal_m()),
-      lattice_step_m_(object.empty() ? 1 : kLatticeShare * object.rounded_diagonal_m()) {}
+      fine_step_m_(object.empty() ? 1 : kLatticeShare * object.rounded_diagonal_m()),
+      lattice_step_m_(fine_step_m_) {}
 
-void DirectLight::set_samples(std::span<const LightSample> samples_tag) {
+void DirectLight::set_samples(std::span<const LightSample> samples_tag, bool stands_still) {
+  lattice_step_m_ = (stands_still ? 1 : kCoarser) * fine_step_m_;
   samples_.assign(samples_tag.begin(), samples_tag.end());
   at_vertices_over_pi_.clear();
+  lattice_nodes_.clear();
   if (samples_.empty()) return;
-  find_vertices();
-  plan_lattices();
+  vertices_.resize(mesh_.vertices.size());
+  is_vertex_known_.assign(mesh_.vertices.size(), 0);
+  lattices_.assign(mesh_.indices.size() / 3, {});
 }
 
 /// `seen` is known; of the samples in `unknown` it is found by rays.
@@ -78,35 +85,37 @@ DirectLightNode DirectLight::node_at(const glm::vec3& position_m, const glm::vec
   return node;
 }
 
-void DirectLight::find_vertices() {
-  vertices_.resize(mesh_.vertices.size());
-  at_vertices_over_pi_.resize(mesh_.vertices.size());
+void DirectLight::find_vertices(std::span<const std::uint32_t> wanted) {
   const Bits none{}, all = bits_of(samples_.size());
-  const std::size_t chunks = (vertices_.size() + kVerticesAtOnce - 1) / kVerticesAtOnce;
+  const std::size_t chunks = (wanted.size() + kVerticesAtOnce - 1) / kVerticesAtOnce;
   parallel_for(chunks, 0, [&](std::size_t chunk) {
-    const std::size_t first = chunk * kVerticesAtOnce, last = std::min(first + kVerticesAtOnce, vertices_.size());
-    for (std::size_t v = first; v < last; ++v) {
-      const glm::vec3 normal = unit(mesh_.vertices[v].normal);
-      vertices_[v] = node_at(mesh_.vertices[v].position_m, normal, none, all);
-      at_vertices_over_pi_[v] = vertices_[v].irradiance / glm::pi<float>();
+    for (std::size_t i = chunk * kVerticesAtOnce; i < std::min((chunk + 1) * kVerticesAtOnce, wanted.size()); ++i) {
+      const Vertex& vertex = mesh_.vertices[wanted[i]];
+      vertices_[wanted[i]] = node_at(vertex.position_m, unit(vertex.normal), none, all);
     }
   });
 }
 
-/// A lattice for each triangle whose corners see different samples.
-void DirectLight::plan_lattices() {
-  lattice_nodes_.clear();
-  lattices_.assign(mesh_.indices.size() / 3, {});
-  for (std::size_t t = 0; t < lattices_.size(); ++t) {
-    const std::uint32_t* corner = &mesh_.indices[3 * t];
-    const auto& seen = vertices_[corner[0]].seen;
-    if (seen == vertices_[corner[1]].seen && seen == vertices_[corner[2]].seen) continue;
-    const auto place = [&](int k) { return mesh_.vertices[corner[k]].position_m; };
-    const float longest_m =
-        std::max({glm::distance(place(0), place(1)), glm::distance(place(1), place(2)), glm::distance(place(2), place(0))});
-    const float steps = std::ceil(longest_m / lattice_step_m_);
-    if (steps > 1) lattices_[t].steps = static_cast<std::uint16_t>(std::min(steps, float{kMaxLatticeSteps}));
-  }
+const std::vector<glm::vec3>& DirectLight::at_vertices_over_pi() {
+  if (samples_.empty() || !at_vertices_over_pi_.empty()) return at_vertices_over_pi_;
+  std::vector<std::uint32_t> unknown;
+  for (std::uint32_t v = 0; v < vertices_.size(); ++v)
+    if (!std::exchange(is_vertex_known_[v], 1)) unknown.push_back(v);
+  find_vertices(unknown);
+  for (const DirectLightNode& node : vertices_) at_vertices_over_pi_.push_back(node.irradiance / glm::pi<float>());
+  return at_vertices_over_pi_;
+}
+
+/// Steps of a triangle whose corners see different samples; 0 for others.
+std::uint16_t DirectLight::lattice_steps(std::uint32_t triangle) const {
+  const std::uint32_t* corner = &mesh_.indices[3 * static_cast<std::size_t>(triangle)];
+  const auto& seen = vertices_[corner[0]].seen;
+  if (seen == vertices_[corner[1]].seen && seen == vertices_[corner[2]].seen) return 0;
+  const auto place = [&](int k) { return mesh_.vertices[corner[k]].position_m; };
+  const float longest_m =
+      std::max({glm::distance(place(0), place(1)), glm::distance(place(1), place(2)), glm::distance(place(2), place(0))});
+  const float steps = std::ceil(longest_m / lattice_step_m_);
+  return steps > 1 ? static_cast<std::uint16_t>(std::min(steps, float{kMaxLatticeSteps})) : std::uint16_t{0};
 }
 
 /// Only of the samples that the corners do not agree on it is asked which are seen.
@@ -135,18 +144,26 @@ void DirectLight::fill_lattice(std::uint32_t triangle) {
 
 void DirectLight::prepare(std::span<const SurfacePoint> points) {
   if (samples_.empty()) return;
-  std::vector<std::uint32_t> wanted;
-  std::size_t nodes = lattice_nodes_.size();
+  std::vector<std::uint32_t> triangles, vertices;
   for (const SurfacePoint& point : points) {
-    Lattice& lattice = lattices_[point.triangle];
-    if (lattice.steps == 0 || lattice.is_made) continue;
-    lattice.is_made = true;
-    lattice.first_node = static_cast<std::uint32_t>(nodes);
-    nodes += lattice_nodes(lattice.steps);
-    wanted.push_back(point.triangle);
+    if (std::exchange(lattices_[point.triangle].is_known, true)) continue;
+    triangles.push_back(point.triangle);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t vertex = mesh_.indices[3 * static_cast<std::size_t>(point.triangle) + k];
+      if (!std::exchange(is_vertex_known_[vertex], 1)) vertices.push_back(vertex);
+    }
   }
+  find_vertices(vertices);
+  std::size_t nodes = lattice_nodes_.size();
+  for (const std::uint32_t triangle : triangles) {
+    Lattice& lattice = lattices_[triangle];
+    lattice.steps = lattice_steps(triangle);
+    lattice.first_node = static_cast<std::uint32_t>(nodes);
+    if (lattice.steps > 0) nodes += lattice_nodes(lattice.steps);
+  }
+  std::erase_if(triangles, [&](std::uint32_t triangle) { return lattices_[triangle].steps == 0; });
   lattice_nodes_.resize(nodes);
-  parallel_for(wanted.size(), 0, [&](std::size_t i) { fill_lattice(wanted[i]); });
+  parallel_for(triangles.size(), 0, [&](std::size_t i) { fill_lattice(triangles[i]); });
 }
 
 DirectLight::Corners DirectLight::corners_at(const SurfacePoint& point) const {

@@ -1,6 +1,6 @@
 // The light of the samples that are split off the probe, on the object: which of them each place sees, found by rays once for as
-// long as the light stands still. Kept at the vertices; within triangles whose corners see different samples, on a finer lattice,
-// which is made when the triangle is first seen.
+// long as the light stands still. Kept at the vertices; within triangles whose corners see different samples, on a finer lattice.
+// Both are found when the camera first sees them.
 #pragma once
 
 #include <array>
@@ -30,16 +30,17 @@ class DirectLight {
   /// Keeps references. `object`: the box around the mesh.
   DirectLight(const Mesh& mesh, const RayScene& rays, const Bounds& object);
 
-  /// Takes over the samples (tag frame; at most kMaxLightSamples) and finds what each vertex sees of them.
-  void set_samples(std::span<const LightSample> samples_tag);
+  /// Takes over the samples (tag frame; at most kMaxLightSamples). Nothing is known under them yet. `stands_still`: they are not
+  /// there for this frame alone, so that finer shadows are worth finding.
+  void set_samples(std::span<const LightSample> samples_tag, bool stands_still);
 
   std::span<const LightSample> samples() const { return samples_; }
 
-  /// Irradiance / pi at each vertex; empty without samples.
-  const std::vector<glm::vec3>& at_vertices_over_pi() const { return at_vertices_over_pi_; }
-
-  /// Makes what the points need; before they are asked for.
+  /// Finds what the points need, before they are asked for.
   void prepare(std::span<const SurfacePoint> points);
+
+  /// Irradiance / pi at each vertex, for what mirrors may see; empty without samples.
+  const std::vector<glm::vec3>& at_vertices_over_pi();
 
   /// Irradiance at the point. `shares`, if not null, gets how much of each sample is seen, kMaxLightSamples values.
   glm::vec3 irradiance(const SurfacePoint& point, float* shares) const;
@@ -49,7 +50,7 @@ class DirectLight {
   struct Lattice {
     std::uint32_t first_node = 0;
     std::uint16_t steps = 0;  ///< along an edge; 0: the corners will do
-    bool is_made = false;
+    bool is_known = false;
   };
   struct Corners {
     const DirectLightNode* nodes[3];
@@ -57,16 +58,17 @@ class DirectLight {
   };
 
   DirectLightNode node_at(const glm::vec3& position_m, const glm::vec3& normal, const Bits& seen, const Bits& unknown) const;
-  void find_vertices();
-  void plan_lattices();
+  void find_vertices(std::span<const std::uint32_t> wanted);
+  std::uint16_t lattice_steps(std::uint32_t triangle) const;
   void fill_lattice(std::uint32_t triangle);
   Corners corners_at(const SurfacePoint& point) const;
 
   const Mesh& mesh_;
   const RayScene& rays_;
-  float lift_m_, lattice_step_m_;
+  float lift_m_, fine_step_m_, lattice_step_m_;
   std::vector<LightSample> samples_;
   std::vector<DirectLightNode> vertices_, lattice_nodes_;
+  std::vector<char> is_vertex_known_;
   std::vector<Lattice> lattices_;  ///< a triangle each
   std::vector<glm::vec3> at_vertices_over_pi_;
 };

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "render/cpu/float4.hpp"
+#include "render/math/float4.hpp"
 #include "render/probe/light_samples.hpp"
 
 namespace catchlight::render {

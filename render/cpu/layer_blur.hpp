@@ -7,7 +7,7 @@
 #include "catchlight/image.hpp"
 #include "catchlight/pixel_rect.hpp"
 #include "render/camera/camera_blur.hpp"
-#include "render/cpu/float4.hpp"
+#include "render/math/float4.hpp"
 
 namespace catchlight::render {
 

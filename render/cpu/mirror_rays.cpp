@@ -28,13 +28,8 @@ struct MirrorRays::Batch {
 };
 
 MirrorRays::MirrorRays(const Mesh& mesh, const RayScene& scene, const SurfaceMaterials& materials, const BrdfTable& brdf,
-                       int lobe_rays, float skin_m)
-    : mesh_(mesh),
-      scene_(scene),
-      materials_(materials),
-      brdf_(brdf),
-      share_(std::pow(static_cast<float>(std::max(lobe_rays, 1)), -0.25f)),
-      skin_m_(skin_m) {}
+                       float skin_m)
+    : mesh_(mesh), scene_(scene), materials_(materials), brdf_(brdf), skin_m_(skin_m) {}
 
 void MirrorRays::set_frame(const Surroundings& around, const VertexLight& light, const glm::vec3& exposure) {
   around_ = &around;
@@ -99,7 +94,7 @@ bool MirrorRays::meet(Walk& walk, const RayStream& hits, std::size_t at, MirrorR
   }
   walk.direction = shading::mirrored_way(walk.direction, normal, roughness, shading::way_from_surface(ray.index, bounce));
   walk.origin_m = start(position, normal);
-  const float share = share_ * roughness;
+  const float share = shading::kFurtherShare * roughness;
   walk.spread += share * share;
   walk.roughness = shading::wider(share, walk.roughness);
   return true;

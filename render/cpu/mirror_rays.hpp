@@ -29,10 +29,9 @@ struct MirrorRay {
 
 class MirrorRays {
  public:
-  /// Keeps references. `lobe_rays`: how many rays stand for a whole lobe. `skin_m`: back faces closer than that are the surface
+  /// Keeps references. `skin_m`: back faces closer than that are the surface
   /// that the ray starts from, whose smoothed normals let it dip below its triangles.
-  MirrorRays(const Mesh& mesh, const RayScene& scene, const SurfaceMaterials& materials, const BrdfTable& brdf, int lobe_rays,
-             float skin_m);
+  MirrorRays(const Mesh& mesh, const RayScene& scene, const SurfaceMaterials& materials, const BrdfTable& brdf, float skin_m);
 
   void set_frame(const Surroundings& around, const VertexLight& light, const glm::vec3& exposure);
 
@@ -56,7 +55,6 @@ class MirrorRays {
   const RayScene& scene_;
   const SurfaceMaterials& materials_;
   const BrdfTable& brdf_;
-  float share_;  ///< of a lobe's width that one ray stands for
   float skin_m_;
   const Surroundings* around_ = nullptr;
   VertexLight light_;

@@ -14,14 +14,15 @@ namespace {
 constexpr int kPolishedRays = 4;
 constexpr std::size_t kPointsAtOnce = 256;
 
-/// Neighbours share rays where the angle between their mirror directions is well below the lobe's own half width, alpha, and they
-/// lie as deep to this share.
-constexpr float kSharedDepth = 0.04f;
+/// Neighbours share rays where their mirror directions differ by less than so many alphas, and they lie as deep to this share.
+/// Two take half of a lobe each, whose patterns would show side by side: they share farther.
+constexpr float kSharedTurn = 1, kSharedTurnOf2 = 3, kSharedDepth = 0.04f;
 /// A pixel's footprint in shares of alpha, up to which 8 and 4 pixels share a lobe's rays; beyond, 2 do.
 constexpr float kFootprintOf8 = 0.25f, kFootprintOf4 = 0.5f;
-/// How much what neighbours find counts, so that each ray of the 4 x 2, or 2 x 2, that share them has the same say.
-constexpr std::array kWide{1.0f, 2.0f, 2.0f, 2.0f, 1.0f};
-constexpr std::array kNarrow{1.0f, 2.0f, 1.0f};
+/// How much what neighbours find counts, so that each ray of a lobe has the same say wherever its 8, 4 or 2 sharers lie.
+constexpr float kSaysOf8[3][5] = {{1, 2, 2, 2, 1}, {2, 4, 4, 4, 2}, {1, 2, 2, 2, 1}};
+constexpr float kSaysOf4[3][5] = {{0, 1, 2, 1, 0}, {0, 2, 4, 2, 0}, {0, 1, 2, 1, 0}};
+constexpr float kSaysOf2[3][5] = {{0, 0, 1, 0, 0}, {0, 1, 4, 1, 0}, {0, 0, 1, 0, 0}};
 /// Beyond this change from pixel to pixel, the neighbour is another surface.
 constexpr float kMaxFootprint = 0.5f;
 
@@ -223,6 +224,29 @@ void MirroredLight::trace(const Frame& frame, std::size_t first, std::size_t las
     add(of[k].first, of[k].second, rays[k].meets_object ? rays[k].radiance : around(of[k].first, rays[k]));
 }
 
+/// What the point's rays and those of its neighbours find.
+MirroredLight::Sum MirroredLight::sum_around(const Frame& frame, std::size_t index, int sharers) const {
+  const auto& [rect, points, firsts] = frame.surface;
+  const SurfacePoint& point = points[index];
+  const auto& says = sharers == 8 ? kSaysOf8 : sharers == 4 ? kSaysOf4 : kSaysOf2;
+  const float roughness = materials_.materials[point.material].emissive_roughness.w;
+  const float reach = (sharers == 2 ? kSharedTurnOf2 : kSharedTurn) * roughness * roughness;
+  const int x = static_cast<int>(point.pixel) % rect.width, y = static_cast<int>(point.pixel) / rect.width;
+  Sum sum;
+  for (int v = std::max(y - 1, 0); v <= std::min(y + 1, rect.height - 1); ++v) {
+    for (int u = std::max(x - 2, 0); u <= std::min(x + 2, rect.width - 1); ++u) {
+      const float say = says[v - y + 1][u - x + 2];
+      const std::int32_t there = firsts[static_cast<std::size_t>(v) * rect.width + u];
+      if (say == 0 || there < 0 || points[there].material != point.material) continue;
+      const glm::vec3 turn = mirror_[there] - mirror_[index];
+      const float alike = say * (1 - glm::dot(turn, turn) / (reach * reach));
+      if (!(alike > 0) || std::abs(points[there].depth_m - point.depth_m) > kSharedDepth * point.depth_m) continue;
+      sum.light += alike * sums_[there].light, sum.weight += alike * sums_[there].weight;
+    }
+  }
+  return sum;
+}
+
 /// The lobe's mean, by the point's rays and those of neighbours with much the same mirror direction.
 glm::vec3 MirroredLight::shared(const Frame& frame, std::size_t index) const {
   const auto& [rect, points, firsts] = frame.surface;
@@ -233,20 +257,7 @@ glm::vec3 MirroredLight::shared(const Frame& frame, std::size_t index) const {
   if (sharers == 1 || point.coverage < 1) {
     sum = sums_[index];
   } else {
-    const float roughness = m.emissive_roughness.w, one_over_alpha2 = 1 / (roughness * roughness * roughness * roughness);
-    const int x = static_cast<int>(point.pixel) % rect.width, y = static_cast<int>(point.pixel) / rect.width;
-    const int across = sharers == 8 ? 2 : 1;
-    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, rect.height - 1); ++v) {
-      for (int u = std::max(x - across, 0); u <= std::min(x + across, rect.width - 1); ++u) {
-        const std::int32_t there = firsts[static_cast<std::size_t>(v) * rect.width + u];
-        if (there < 0 || points[there].material != point.material) continue;
-        const glm::vec3 turn = mirror_[there] - mirror_[index];
-        const float alike = 1 - glm::dot(turn, turn) * one_over_alpha2;
-        if (!(alike > 0) || std::abs(points[there].depth_m - point.depth_m) > kSharedDepth * point.depth_m) continue;
-        const float say = alike * (sharers == 8 ? kWide[u - x + 2] : kNarrow[u - x + 1]) * kNarrow[v - y + 1];
-        sum.light += say * sums_[there].light, sum.weight += say * sums_[there].weight;
-      }
-    }
+    sum = sum_around(frame, index, sharers);
   }
   if (sum.weight > 0) return sum.light / sum.weight;
   return frame.around.probe_radiance(mirror_[index], m.emissive_roughness.w, !(frame.has_highlights && is_rough(point)));

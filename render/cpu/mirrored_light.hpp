@@ -49,6 +49,7 @@ class MirroredLight {
   void find_footprints(const Frame& frame, std::size_t index);
   void look_for_object(const Frame& frame);
   void trace(const Frame& frame, std::size_t first, std::size_t last);
+  Sum sum_around(const Frame& frame, std::size_t index, int sharers) const;
   glm::vec3 shared(const Frame& frame, std::size_t index) const;
 
   const SurfaceMaterials& materials_;

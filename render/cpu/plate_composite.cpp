@@ -9,7 +9,7 @@
 #include "catchlight/error.hpp"
 #include "catchlight/response.hpp"
 #include "catchlight/util/parallel.hpp"
-#include "render/cpu/float4.hpp"
+#include "render/math/float4.hpp"
 #include "render/receiver_light.hpp"
 #include "shaders/noise.h"
 

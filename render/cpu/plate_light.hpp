@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "catchlight/plate.hpp"
-#include "render/cpu/float4.hpp"
 #include "render/cpu/response_table.hpp"
 #include "render/frame_view.hpp"
+#include "render/math/float4.hpp"
 
 namespace catchlight::render {
 

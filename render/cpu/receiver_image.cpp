@@ -5,7 +5,7 @@
 
 #include "catchlight/util/parallel.hpp"
 #include "render/camera/clip_from_camera.hpp"
-#include "render/cpu/float4.hpp"
+#include "render/math/float4.hpp"
 
 namespace catchlight::render {
 namespace {

@@ -74,12 +74,13 @@ glm::vec3 smooth(std::span<const glm::vec3> values, const glm::ivec2& points, co
 ReceiverShadow::ReceiverShadow(const Transfer& transfer, const RayScene& rays, const Bounds& object)
     : transfer_(transfer), rays_(rays), object_(object) {}
 
-void ReceiverShadow::update(const SplitLight& light_tag) {
+void ReceiverShadow::update(const SplitLight& light_tag, bool stands_still) {
   const std::vector<glm::vec3> grid_light = transferred_light(transfer_.receiver, transfer_.receiver_direct, light_tag);
   const OpenPlaneLight open = open_plane_light(transfer_.receiver_unshadowed, light_tag);
   const PlaneRect of_lights = shadow_reach(light_tag.samples, open, object_);
   PlaneLights lights;
-  if (!of_lights.empty()) lights = plane_lights(light_tag.samples, rays_, receiver_texels(of_lights, object_), object_);
+  if (!of_lights.empty())
+    lights = plane_lights(light_tag.samples, rays_, receiver_texels(of_lights, object_, stands_still ? 1 : 2), object_);
   draw_ratio(open, grid_light, lights);
   crop();
 }

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "render/cpu/float4.hpp"
 #include "render/cpu/plane_lights.hpp"
+#include "render/math/float4.hpp"
 #include "render/mesh/bounds.hpp"
 #include "render/rays/ray_scene.hpp"
 #include "render/receiver_light.hpp"
@@ -22,8 +22,8 @@ class ReceiverShadow {
   /// Keeps references. `transfer` must have a grid of at least 2 x 2 points; `object` is the box around what casts the shadow.
   ReceiverShadow(const Transfer& transfer, const RayScene& rays, const Bounds& object);
 
-  /// Finds the plane's shadow under `light_tag`.
-  void update(const SplitLight& light_tag);
+  /// Finds the plane's shadow under `light_tag`; more coarsely where that does not stand still.
+  void update(const SplitLight& light_tag, bool stands_still);
 
   /// The part of the plane where the ratio differs from 1 by more than can be seen.
   const PlaneRect& reach() const { return reach_; }

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "catchlight/plate.hpp"
-#include "render/cpu/float4.hpp"
+#include "render/math/float4.hpp"
 
 namespace catchlight::render {
 

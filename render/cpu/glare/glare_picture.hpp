@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "render/cpu/float4.hpp"
+#include "render/math/float4.hpp"
 
 namespace catchlight::render {
 

@@ -1,4 +1,4 @@
-#include "render/cpu/float4.hpp"
+#include "render/math/float4.hpp"
 
 #include <cstddef>
 #include <limits>
