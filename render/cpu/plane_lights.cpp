@@ -96,7 +96,7 @@ PlaneLights plane_lights(std::span<const LightSample> samples_tag, const RayScen
   PlaneLights result{texels, std::vector<glm::vec3>(static_cast<std::size_t>(texels.size.x) * texels.size.y)};
   const glm::vec2 texel_m = (texels.rect.max_m - texels.rect.min_m) / glm::vec2(texels.size);
   const auto place = [&](int x, int y) { return texels.rect.min_m + (glm::vec2(x, y) + 0.5f) * texel_m; };
-  const glm::ivec2 cells = (texels.size + kCell - 2) / kCell, nodes = cells + 1;
+  const glm::ivec2 cells = (texels.size + kCell - 1) / kCell, nodes = cells + 1;
   std::vector<Bits> at_nodes(static_cast<std::size_t>(nodes.x) * nodes.y);
   parallel_for(static_cast<std::size_t>(nodes.y), 0, [&](std::size_t row) {
     std::vector<glm::vec2> places;

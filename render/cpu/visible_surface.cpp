@@ -1,6 +1,7 @@
 #include "render/cpu/visible_surface.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "catchlight/util/parallel.hpp"
@@ -39,8 +40,14 @@ struct SurfaceFinder::Frame {
   glm::vec3 eye_tag_m;
   glm::mat3 tag_from_camera;
 
-  /// The ray through a pixel of the rectangle, as long as it is deep.
-  glm::vec3 direction(const glm::vec2& normalized) const { return tag_from_camera * glm::vec3(normalized, 1.0f); }
+  /// Sets a ray, as long as it is deep; one that meets nothing where the lens sees nothing.
+  void set_ray(RayStream& rays, std::size_t ray, const glm::vec2& normalized) const {
+    constexpr float kFarthest = 1e6f;  // false for NaN, which Embree does not take
+    const bool is_seen = std::abs(normalized.x) < kFarthest && std::abs(normalized.y) < kFarthest;
+    const auto near_m = static_cast<float>(kNear_m);
+    rays.set(ray, eye_tag_m, tag_from_camera * glm::vec3(is_seen ? normalized : glm::vec2(0), 1.0f), near_m,
+             is_seen ? std::numeric_limits<float>::infinity() : near_m);
+  }
 };
 
 struct SurfaceFinder::Hit {
@@ -104,7 +111,11 @@ void finish(SurfacePoint& point, int count, const glm::vec3& eye_tag_m) {
   point.normal /= std::max(glm::length(point.normal), 1e-20f);
   point.to_viewer = glm::normalize(eye_tag_m - point.position_m);
   const float n_v = glm::dot(point.normal, point.to_viewer);
-  if (n_v < 0) point.normal = glm::normalize(point.normal - n_v * point.to_viewer);
+  if (n_v < 0) point.normal -= n_v * point.to_viewer;
+  if (!(glm::dot(point.normal, point.normal) > 1e-12f))
+    point.normal = point.to_viewer;  // there is none, or it looks straight away
+  else if (n_v < 0)
+    point.normal = glm::normalize(point.normal);
 }
 
 void add(SurfacePoint& sum, const SurfacePoint& other) {
@@ -120,8 +131,7 @@ void SurfaceFinder::add_samples(const Frame& frame, int x, int y, std::vector<Su
   const auto samples = sample_offsets_px_.size();
   rays.resize(samples);
   for (std::size_t i = 0; i < samples; ++i)
-    rays.set(i, frame.eye_tag_m, frame.direction(frame.pixel_rays.at(frame.rect.x + x, frame.rect.y + y, sample_offsets_px_[i])),
-             static_cast<float>(kNear_m), std::numeric_limits<float>::infinity());
+    frame.set_ray(rays, i, frame.pixel_rays.at(frame.rect.x + x, frame.rect.y + y, sample_offsets_px_[i]));
   rays_.closest_hits(rays, Coherence::coherent);
   const std::size_t first = points.size();
   std::array<int, 16> counts{};
@@ -162,9 +172,7 @@ void SurfaceFinder::trace_band(const Frame& frame, int band, std::vector<Surface
   };
   for (int y = top; y < top + rows; ++y)
     for (int x = 0; x < tiles * kTileColumns; ++x)
-      rays.set(ray_of(x, y), frame.eye_tag_m,
-               frame.direction(frame.pixel_rays.at(rect.x + std::min(x, rect.width - 1), rect.y + y)),
-               static_cast<float>(kNear_m), std::numeric_limits<float>::infinity());
+      frame.set_ray(rays, ray_of(x, y), frame.pixel_rays.at(rect.x + std::min(x, rect.width - 1), rect.y + y));
   rays_.closest_hits(rays, Coherence::coherent);
   for (int y = top; y < top + rows; ++y) {
     for (int x = 0; x < rect.width; ++x) {
