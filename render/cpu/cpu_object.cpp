@@ -24,6 +24,14 @@ glm::vec3 exposed(const FrameView& view, const glm::vec3& radiance) {
   return result;
 }
 
+std::vector<char> polished(const SurfaceMaterials& materials) {
+  std::vector<char> result;
+  for (const auto& m : materials.materials)
+    result.push_back((m.base_color_metallic.w > 0 || m.dielectric.x > 0) &&
+                     m.emissive_roughness.w < shading::kMinHighlightRoughness);
+  return result;
+}
+
 void add(float* pixel, const glm::vec3& value, float coverage) {
   for (int c = 0; c < 3; ++c) pixel[c] += coverage * value[c];
 }
@@ -41,7 +49,7 @@ CpuObject::CpuObject(const RenderScene& scene, const RayScene& rays, const Bound
       probe_(scene.reflections),
       rest_(scene.rest_reflections),
       around_(probe_, rest_, scene.probe_in_tag_m),
-      finder_(scene.mesh, rays, samples),
+      finder_(scene.mesh, rays, samples, polished(materials_)),
       direct_(scene.mesh, rays, bounds),
       mirror_rays_(scene.mesh, rays, materials_, brdf_, bounds.empty() ? 0 : kSkinShare * bounds.rounded_diagonal_m()),
       mirrored_(materials_, mirror_rays_, reflection_rays) {}

@@ -82,6 +82,10 @@ DirectLightNode DirectLight::node_at(const glm::vec3& position_m, const glm::vec
   for (std::size_t i = 0; i < samples_.size(); ++i)
     if (node.sees(i))
       node.irradiance += std::max(glm::dot(normal, glm::vec3(samples_[i].direction)), 0.0f) * glm::vec3(samples_[i].irradiance);
+  if (node.seen == Bits{}) {
+    const auto above = rays_.closest_hit(position_m + lift_m_ * normal, normal);
+    node.is_inside = above && !above->front_facing;
+  }
   return node;
 }
 
@@ -193,7 +197,13 @@ glm::vec3 DirectLight::irradiance(const SurfacePoint& point, float* shares) cons
     for (std::size_t i = 0; shares && i < samples_.size(); ++i) shares[i] = node.sees(i) ? 1 : 0;
     return node.irradiance;
   }
-  const auto [nodes, w] = corners_at(point);
+  auto [nodes, w] = corners_at(point);
+  // What lies inside would put a dark rim along the line where parts go through each other.
+  glm::vec3 open = w;
+  for (int k = 0; k < 3; ++k)
+    if (nodes[k]->is_inside) open[k] = 0;
+  const float sum = open.x + open.y + open.z;
+  if (sum > 0.1f) w = open / sum;
   for (std::size_t i = 0; shares && i < samples_.size(); ++i)
     shares[i] = (nodes[0]->sees(i) ? w.x : 0) + (nodes[1]->sees(i) ? w.y : 0) + (nodes[2]->sees(i) ? w.z : 0);
   return w.x * nodes[0]->irradiance + w.y * nodes[1]->irradiance + w.z * nodes[2]->irradiance;

@@ -21,6 +21,7 @@ namespace catchlight::render {
 struct DirectLightNode {
   std::array<std::uint64_t, 2> seen{};  ///< a bit a sample: in front of the surface, and nothing between
   glm::vec3 irradiance{0};              ///< by those samples, on the surface there
+  bool is_inside = false;               ///< within another part of the object: dark, and nobody sees it
 
   bool sees(std::size_t sample) const { return (seen[sample / 64] >> (sample % 64) & 1) != 0; }
 };

@@ -67,6 +67,7 @@ MirroredLight::MirroredLight(const SurfaceMaterials& materials, const MirrorRays
   };
   rough_points_ = points_of(std::max(lobe_rays, 1));
   polished_points_ = points_of(kPolishedRays);
+  single_point_ = points_of(1);
 }
 
 bool MirroredLight::mirrors(const SurfacePoint& point) const {
@@ -80,7 +81,8 @@ bool MirroredLight::is_rough(const SurfacePoint& point) const {
 
 /// Rays of the point's whole lobe, its own and its neighbours'.
 int MirroredLight::rays_of(const SurfacePoint& point) const {
-  return is_rough(point) ? std::max(lobe_rays_, 1) : kPolishedRays;
+  if (is_rough(point)) return std::max(lobe_rays_, 1);
+  return point.coverage < 1 ? 1 : kPolishedRays;  // the outline's samples are the rays
 }
 
 /// How many pixels share a lobe's rays. The parts of an outline's pixel share with nobody, and take half of the rays.
@@ -104,9 +106,10 @@ MirroredLight::Lobe MirroredLight::lobe_of(const Frame& frame, std::size_t index
   lobe.viewer_local = point.to_viewer * lobe.frame;
   // Without rays of its own the whole lobe is read from the prefiltered probe, in the mirror direction.
   lobe.alpha = lobe_rays_ > 0 ? roughness * roughness : 0;
-  lobe.share = lobe_rays_ > 0 ? std::pow(static_cast<float>(rays_of(point)), -0.25f) * roughness : roughness;
+  const int lobe_size = is_rough(point) ? rays_of(point) : kPolishedRays;
+  lobe.share = lobe_rays_ > 0 ? std::pow(static_cast<float>(lobe_size), -0.25f) * roughness : roughness;
   lobe.spread = lobe.share * lobe.share + 0.25f * glm::length(lobe.footprint_x + lobe.footprint_y);
-  lobe.points = is_rough(point) ? rough_points_ : polished_points_;
+  lobe.points = is_rough(point) ? rough_points_ : point.coverage < 1 ? single_point_ : polished_points_;
   return lobe;
 }
 

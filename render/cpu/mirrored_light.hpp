@@ -55,7 +55,7 @@ class MirroredLight {
   const SurfaceMaterials& materials_;
   const MirrorRays& rays_;
   int lobe_rays_;
-  std::vector<LobePoint> rough_points_, polished_points_;
+  std::vector<LobePoint> rough_points_, polished_points_, single_point_;
   std::vector<glm::vec3> mirror_, footprint_x_, footprint_y_;  ///< of each point
   std::vector<char> hit_, near_hit_;  ///< a pixel each: whether its first ray, or a neighbour's, meets the object
   std::vector<Sum> sums_;

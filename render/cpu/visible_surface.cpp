@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "catchlight/util/parallel.hpp"
 #include "render/frame_plan.hpp"
@@ -16,6 +17,8 @@ constexpr int kBandRows = 8, kTileColumns = 8;
 /// Samples of one pixel that lie on much the same surface are shaded together: cosine of 25 degrees between their normals, and
 /// shares of the distance.
 constexpr float kSameNormal = 0.9f, kSameDepth = 0.02f;
+/// Neighbouring pixels whose depths differ by this share of them show different surfaces.
+constexpr float kStepDepth = 0.02f;
 
 /// OpenGL's usual pattern of four; else low-discrepancy.
 std::vector<glm::vec2> sample_pattern(int count) {
@@ -50,18 +53,24 @@ struct SurfaceFinder::Frame {
   }
 };
 
-struct SurfaceFinder::Hit {
-  std::uint32_t triangle;
-  glm::vec2 weights;
-  float depth_m;
-  bool is_back;
+SurfaceFinder::SurfaceFinder(const Mesh& mesh, const RayScene& rays, int samples, std::vector<char> is_polished)
+    : mesh_(mesh),
+      rays_(rays),
+      outline_(mesh),
+      sample_offsets_px_(sample_pattern(samples)),
+      is_polished_(std::move(is_polished)) {}
 
-  Hit(const RayStream& rays, std::size_t i)
-      : triangle(rays.triangle[i]), weights(rays.u[i], rays.v[i]), depth_m(rays.far[i]), is_back(!rays.is_front_facing(i)) {}
-};
+SurfaceFinder::Hit SurfaceFinder::hit_of(const RayStream& rays, std::size_t ray) {
+  return {rays.triangle[ray], {rays.u[ray], rays.v[ray]}, rays.far[ray], !rays.is_front_facing(ray)};
+}
 
-SurfaceFinder::SurfaceFinder(const Mesh& mesh, const RayScene& rays, int samples)
-    : mesh_(mesh), rays_(rays), outline_(mesh), sample_offsets_px_(sample_pattern(samples)) {}
+/// The interpolated normal, towards the viewer.
+glm::vec3 SurfaceFinder::normal_at(const Hit& hit) const {
+  const std::uint32_t* corner = &mesh_.indices[3 * static_cast<std::size_t>(hit.triangle)];
+  const auto normal = [&](int k) { return mesh_.vertices[corner[k]].normal; };
+  const glm::vec3 sum = (1 - hit.weights.x - hit.weights.y) * normal(0) + hit.weights.x * normal(1) + hit.weights.y * normal(2);
+  return sum / (std::max(glm::length(sum), 1e-20f) * (hit.is_back ? -1.0f : 1.0f));
+}
 
 /// The pixels of the rectangle that an edge crosses.
 void SurfaceFinder::mark_outline(const Frame& frame) {
@@ -88,7 +97,7 @@ SurfacePoint SurfaceFinder::point_at(const Frame& frame, const Hit& hit) const {
   const glm::vec3 w(1 - hit.weights.x - hit.weights.y, hit.weights);
   SurfacePoint point;
   point.position_m = w.x * a.position_m + w.y * b.position_m + w.z * c.position_m;
-  point.normal = w.x * a.normal + w.y * b.normal + w.z * c.normal;
+  point.normal = normal_at(hit);
   point.color = w.x * a.color + w.y * b.color + w.z * c.color;
   point.exit_radiance =
       w.x * frame.exit_radiance[corner[0]] + w.y * frame.exit_radiance[corner[1]] + w.z * frame.exit_radiance[corner[2]];
@@ -97,7 +106,6 @@ SurfacePoint SurfaceFinder::point_at(const Frame& frame, const Hit& hit) const {
   point.depth_m = hit.depth_m;
   point.material = mesh_.triangle_material[hit.triangle];
   point.is_back = hit.is_back;
-  point.normal /= std::max(glm::length(point.normal), 1e-20f) * (hit.is_back ? -1.0f : 1.0f);
   return point;
 }
 
@@ -137,12 +145,13 @@ void SurfaceFinder::add_samples(const Frame& frame, int x, int y, std::vector<Su
   std::array<int, 16> counts{};
   for (std::size_t i = 0; i < samples; ++i) {
     if (!rays.meets(i)) continue;
-    const SurfacePoint found = point_at(frame, Hit(rays, i));
+    const SurfacePoint found = point_at(frame, hit_of(rays, i));
     std::size_t at = first;
     for (; at < points.size(); ++at) {
       const SurfacePoint& group = points[at];
       const auto count = static_cast<float>(counts[at - first]);
-      if (group.material == found.material && glm::dot(group.normal, found.normal) > kSameNormal * count &&
+      if (group.material == found.material && !is_polished_[found.material] &&
+          glm::dot(group.normal, found.normal) > kSameNormal * count &&
           std::abs(group.depth_m - count * found.depth_m) < kSameDepth * count * found.depth_m)
         break;
     }
@@ -159,9 +168,9 @@ void SurfaceFinder::add_samples(const Frame& frame, int x, int y, std::vector<Su
   }
 }
 
-void SurfaceFinder::trace_band(const Frame& frame, int band, std::vector<SurfacePoint>& points) const {
+/// What the middles of a band's pixels show.
+void SurfaceFinder::trace_band(const Frame& frame, int band) {
   thread_local RayStream rays;
-  points.clear();
   const PixelRect& rect = frame.rect;
   const int top = band * kBandRows, rows = std::min(kBandRows, rect.height - top);
   const int tiles = (rect.width + kTileColumns - 1) / kTileColumns;
@@ -174,13 +183,41 @@ void SurfaceFinder::trace_band(const Frame& frame, int band, std::vector<Surface
     for (int x = 0; x < tiles * kTileColumns; ++x)
       frame.set_ray(rays, ray_of(x, y), frame.pixel_rays.at(rect.x + std::min(x, rect.width - 1), rect.y + y));
   rays_.closest_hits(rays, Coherence::coherent);
-  for (int y = top; y < top + rows; ++y) {
+  for (int y = top; y < top + rows; ++y)
+    for (int x = 0; x < rect.width; ++x) hits_[static_cast<std::size_t>(y) * rect.width + x] = hit_of(rays, ray_of(x, y));
+}
+
+/// Whether two neighbours' surfaces do not go on from one to the other, as where parts go through each other.
+bool SurfaceFinder::is_step(const Hit& a, const Hit& b) const {
+  if (a.triangle == b.triangle || a.triangle == RayStream::kNothing || b.triangle == RayStream::kNothing) return false;
+  return std::abs(a.depth_m - b.depth_m) > kStepDepth * a.depth_m || glm::dot(normal_at(a), normal_at(b)) < kSameNormal;
+}
+
+/// Marks the pixels of a band that differ much from those to their right or below.
+void SurfaceFinder::mark_steps(const Frame& frame, int band) {
+  const PixelRect& rect = frame.rect;
+  for (int y = band * kBandRows; y < std::min((band + 1) * kBandRows, rect.height); ++y) {
     for (int x = 0; x < rect.width; ++x) {
-      const std::size_t pixel = static_cast<std::size_t>(y) * rect.width + x, ray = ray_of(x, y);
+      const std::size_t pixel = static_cast<std::size_t>(y) * rect.width + x;
+      const auto differs = [&](int dx, int dy) {
+        if (x + dx < 0 || y + dy < 0 || x + dx >= rect.width || y + dy >= rect.height) return false;
+        return is_step(hits_[pixel], hits_[static_cast<std::size_t>(y + dy) * rect.width + (x + dx)]);
+      };
+      if (!is_outline_[pixel] && (differs(1, 0) || differs(0, 1) || differs(-1, 0) || differs(0, -1))) is_outline_[pixel] = 1;
+    }
+  }
+}
+
+void SurfaceFinder::put_band(const Frame& frame, int band, std::vector<SurfacePoint>& points) const {
+  points.clear();
+  const PixelRect& rect = frame.rect;
+  for (int y = band * kBandRows; y < std::min((band + 1) * kBandRows, rect.height); ++y) {
+    for (int x = 0; x < rect.width; ++x) {
+      const std::size_t pixel = static_cast<std::size_t>(y) * rect.width + x;
       if (is_outline_[pixel]) {
         add_samples(frame, x, y, points);
-      } else if (rays.meets(ray)) {
-        points.push_back(point_at(frame, Hit(rays, ray)));
+      } else if (hits_[pixel].triangle != RayStream::kNothing) {
+        points.push_back(point_at(frame, hits_[pixel]));
         points.back().pixel = static_cast<std::uint32_t>(pixel);
         finish(points.back(), 1, frame.eye_tag_m);
       }
@@ -199,7 +236,11 @@ const VisibleSurface& SurfaceFinder::find(const FrameView& view, const Distortio
                     glm::mat3(glm::transpose(view.camera_from_tag.rotation))};
   mark_outline(frame);
   bands_.resize(static_cast<std::size_t>((rect.height + kBandRows - 1) / kBandRows));
-  parallel_for(bands_.size(), 0, [&](std::size_t band) { trace_band(frame, static_cast<int>(band), bands_[band]); });
+  hits_.resize(is_outline_.size());
+  parallel_for(bands_.size(), 0, [&](std::size_t band) { trace_band(frame, static_cast<int>(band)); });
+  if (sample_offsets_px_.size() > 1)
+    parallel_for(bands_.size(), 0, [&](std::size_t band) { mark_steps(frame, static_cast<int>(band)); });
+  parallel_for(bands_.size(), 0, [&](std::size_t band) { put_band(frame, static_cast<int>(band), bands_[band]); });
   surface_.rect = rect;
   surface_.points.clear();
   for (const std::vector<SurfacePoint>& band : bands_) surface_.points.insert(surface_.points.end(), band.begin(), band.end());

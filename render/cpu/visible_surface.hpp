@@ -38,8 +38,9 @@ struct VisibleSurface {
 
 class SurfaceFinder {
  public:
-  /// `samples`: a pixel's where the outline crosses it. Keeps references.
-  SurfaceFinder(const Mesh& mesh, const RayScene& rays, int samples);
+  /// `samples`: a pixel's where the outline crosses it. `is_polished`, a value a material: surfaces whose shading changes so much
+  /// with the normal that no two samples are shaded together. Keeps references.
+  SurfaceFinder(const Mesh& mesh, const RayScene& rays, int samples, std::vector<char> is_polished);
 
   /// What the pixels of `rect` show. `exit_radiance`: a value a vertex.
   const VisibleSurface& find(const FrameView& view, const DistortionLimit& limit, const PixelRays& pixel_rays,
@@ -47,18 +48,30 @@ class SurfaceFinder {
 
  private:
   struct Frame;
-  struct Hit;
+  struct Hit {
+    std::uint32_t triangle = RayStream::kNothing;
+    glm::vec2 weights{0};
+    float depth_m = 0;
+    bool is_back = false;
+  };
 
   void mark_outline(const Frame& frame);
-  void trace_band(const Frame& frame, int band, std::vector<SurfacePoint>& points) const;
+  void trace_band(const Frame& frame, int band);
+  void mark_steps(const Frame& frame, int band);
+  void put_band(const Frame& frame, int band, std::vector<SurfacePoint>& points) const;
   void add_samples(const Frame& frame, int x, int y, std::vector<SurfacePoint>& points) const;
+  bool is_step(const Hit& a, const Hit& b) const;
+  static Hit hit_of(const RayStream& rays, std::size_t ray);
+  glm::vec3 normal_at(const Hit& hit) const;
   SurfacePoint point_at(const Frame& frame, const Hit& hit) const;
 
   const Mesh& mesh_;
   const RayScene& rays_;
   MeshOutline outline_;
   std::vector<glm::vec2> sample_offsets_px_;
+  std::vector<char> is_polished_;
   std::vector<char> is_outline_;  ///< a pixel of the rectangle each
+  std::vector<Hit> hits_;         ///< what each pixel's middle shows
   std::vector<std::vector<SurfacePoint>> bands_;
   VisibleSurface surface_;
 };
