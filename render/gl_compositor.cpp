@@ -32,6 +32,8 @@ namespace {
 
 /// How far a smoothed surface may lie from its triangles, in shares of the object's diagonal.
 constexpr float kSkinShare = 0.01f;
+/// How far above a surface its rays start, in shares of that: ray_start() in shaders/reflection.glsl.
+constexpr float kRayStartShare = 0.05f;
 
 int supported_samples(int wanted) {
   GLint limit = 1;
@@ -100,7 +102,7 @@ GlCompositor::Impl::Impl(const RenderScene& scene, const CompositorSettings& wan
       light(shaders),
       lights(static_cast<int>(scene.lights.size()), bounds, shaders),
       object(scene.mesh, LitPoints("object", scene.transfer.object, scene.transfer.object_direct, sh_count(scene.transfer.bands)),
-             scene.reflections, scene.rest_reflections, shaders),
+             scene.reflections, scene.rest_reflections, kRayStartShare * kSkinShare * bounds.rounded_diagonal_m(), shaders),
       camera_blur(shaders),
       glare(wanted.glare, shaders),
       composite(shaders) {

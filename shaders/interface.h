@@ -68,6 +68,7 @@ using glm::vec4;
 #define ATTRIBUTE_NORMAL 1
 #define ATTRIBUTE_COLOR 2
 #define ATTRIBUTE_EXIT_RADIANCE 3
+#define ATTRIBUTE_MIRRORS_OBJECT 4
 
 // TransferFunction
 #define TRANSFER_SRGB 0

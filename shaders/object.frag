@@ -10,6 +10,7 @@ in Surface {
   vec3 normal_tag;
   vec3 color;
   vec3 exit_radiance;
+  float mirrors_object;  // 0: nothing of the object lies above any corner
 } surface;
 uniform int material_index;
 uniform int first_triangle;  // that gl_PrimitiveID counts from
@@ -73,7 +74,8 @@ void main() {
   float roughness = m.emissive_roughness.a;
   bool mirrors = m.base_color_metallic.a > 0.0 || m.dielectric.x > 0.0;
   bool highlights = mirrors && shows_lights_as_highlights(roughness);
-  if (mirrors) reflected = factor.rgb * mirrored_radiance(surface.position_tag_m, n, to_viewer, roughness, !highlights);
+  bool may_meet = surface.mirrors_object != 0.0 || !gl_FrontFacing;
+  if (mirrors) reflected = factor.rgb * mirrored_radiance(surface.position_tag_m, n, to_viewer, roughness, may_meet, !highlights);
 
   TriangleLights lights = lights_of_triangle();
   vec3 irradiance = max(n * mat3(lights.flux_red.xyz, lights.flux_green.xyz, lights.flux_blue.xyz), 0.0);

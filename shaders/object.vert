@@ -6,6 +6,7 @@ layout(location = ATTRIBUTE_POSITION) in vec3 position_m;
 layout(location = ATTRIBUTE_NORMAL) in vec3 normal;
 layout(location = ATTRIBUTE_COLOR) in vec3 color;
 layout(location = ATTRIBUTE_EXIT_RADIANCE) in vec3 exit_radiance;
+layout(location = ATTRIBUTE_MIRRORS_OBJECT) in float mirrors_object;
 
 // Not centroid: the covered samples' place would shift reflections by up to 0.4 px wherever facets are as small as pixels.
 out Surface {
@@ -13,6 +14,7 @@ out Surface {
   vec3 normal_tag;
   vec3 color;
   vec3 exit_radiance;
+  float mirrors_object;  // 0: nothing of the object lies above any corner
 } surface;
 
 void main() {
@@ -20,5 +22,6 @@ void main() {
   surface.normal_tag = normal;
   surface.color = color;
   surface.exit_radiance = exit_radiance;
+  surface.mirrors_object = mirrors_object;
   gl_Position = clip_from_tag(position_m);
 }

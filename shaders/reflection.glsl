@@ -50,10 +50,10 @@ SurfaceHit surface_at(RayHit hit, vec3 direction) {
 vec3 ray_start(vec3 position, vec3 n) { return position + n * (0.05 * view.probe_in_tag_m.w); }
 
 // Radiance that arrives at `origin` from `direction`. The ray stands for a bundle of half width `spread`, as wide as the lobe of a
-// surface of `roughness`, which surfaces on its way spread further. `index`: its number in its lobe.
-vec3 radiance_along(vec3 origin, vec3 direction, float spread, float roughness, int index, bool with_lights) {
+// surface of `roughness`, which surfaces on its way spread further. `index`: its number in its lobe. `may_meet`: it may meet the object.
+vec3 radiance_along(vec3 origin, vec3 direction, float spread, float roughness, int index, bool may_meet, bool with_lights) {
   vec3 sum = vec3(0.0), through = vec3(1.0);
-  for (int bounce = 0; view.options.x > 0; ++bounce) {
+  for (int bounce = 0; may_meet; ++bounce) {
     RayHit hit = RayHit(uvec4(0u), 1e30, vec2(0.0));
     trace(origin, direction, view.probe_in_tag_m.w, hit);
     if (hit.distance_m >= 1e30) break;
@@ -76,7 +76,7 @@ vec3 radiance_along(vec3 origin, vec3 direction, float spread, float roughness, 
 
 // Mean radiance over the lobe around the mirror direction. Each ray stands for its share of the lobe: the probe is read at the
 // roughness of that share, without the lights where those are added as highlights.
-vec3 mirrored_radiance(vec3 position, vec3 n, vec3 to_viewer, float roughness, bool with_lights) {
+vec3 mirrored_radiance(vec3 position, vec3 n, vec3 to_viewer, float roughness, bool may_meet, bool with_lights) {
   vec3 mirror = reflect(-to_viewer, n);
   vec3 dx = dFdx(mirror), dy = dFdy(mirror);
   int rays = roughness < kMinHighlightRoughness ? 4 : max(view.options.x, 1);
@@ -94,7 +94,7 @@ vec3 mirrored_radiance(vec3 position, vec3 n, vec3 to_viewer, float roughness, b
     float above = dot(direction, n);
     if (above <= 0.0) continue;
     float weight = lobe_weight(above, alpha);
-    sum += weight * radiance_along(origin, normalize(direction), spread, share, i, with_lights);
+    sum += weight * radiance_along(origin, normalize(direction), spread, share, i, traced && may_meet, with_lights);
     weights += weight;
   }
   return weights > 0.0 ? sum / weights : probe_radiance(mirror, roughness, with_lights);

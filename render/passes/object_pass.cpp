@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <numeric>
 
+#include "catchlight/util/parallel.hpp"
 #include "render/passes/reflection_texture.hpp"
 #include "render/rays/skip_bvh.hpp"
 #include "render/surface_material.hpp"
@@ -29,16 +30,29 @@ int most_kept(const Mesh& mesh) {
   return static_cast<int>(std::min(fitting, mesh.triangle_material.size()));
 }
 
-void set_attribute(GLuint array, GLuint attribute, GLuint binding, std::size_t offset) {
+/// 1 for a vertex above whose plane some of the object lies, else 0: rays from there meet nothing of it.
+std::vector<float> find_mirrors_object(const SkipBvh& bvh, const Mesh& mesh, float ray_start_m) {
+  std::vector<float> result(mesh.vertices.size());
+  constexpr std::size_t kAtOnce = 1024;
+  parallel_for((result.size() + kAtOnce - 1) / kAtOnce, 0, [&](std::size_t chunk) {
+    for (std::size_t v = chunk * kAtOnce; v < std::min((chunk + 1) * kAtOnce, result.size()); ++v) {
+      const glm::vec3 normal = mesh.vertices[v].normal / std::max(glm::length(mesh.vertices[v].normal), 1e-20f);
+      result[v] = reaches_above(bvh, mesh, mesh.vertices[v].position_m, normal, ray_start_m) ? 1.0f : 0.0f;
+    }
+  });
+  return result;
+}
+
+void set_attribute(GLuint array, GLuint attribute, GLuint binding, std::size_t offset, int floats = 3) {
   glEnableVertexArrayAttrib(array, attribute);
-  glVertexArrayAttribFormat(array, attribute, 3, GL_FLOAT, GL_FALSE, static_cast<GLuint>(offset));
+  glVertexArrayAttribFormat(array, attribute, floats, GL_FLOAT, GL_FALSE, static_cast<GLuint>(offset));
   glVertexArrayAttribBinding(array, attribute, binding);
 }
 
 }  // namespace
 
 ObjectPass::ObjectPass(const Mesh& mesh, LitPoints vertices_lit, const ReflectionMap& reflections, const ReflectionMap& rest,
-                       ShaderLibrary& shaders)
+                       float ray_start_m, ShaderLibrary& shaders)
     : program_(shaders.program({.vertex = "object.vert", .fragment = "object.frag"})),
       exit_radiance_(std::move(vertices_lit)),
       vertex_lights_capture_("vertex_lights.vert", {"irradiance_over_pi", "lit", "dark"}, sizeof(shader_interface::VertexLights),
@@ -56,7 +70,7 @@ ObjectPass::ObjectPass(const Mesh& mesh, LitPoints vertices_lit, const Reflectio
       brdf_table_(make_brdf_texture()) {
   upload_mesh(mesh);
   upload_materials(mesh);
-  upload_hierarchy(mesh);
+  upload_hierarchy(mesh, ray_start_m);
 }
 
 void ObjectPass::upload_mesh(const Mesh& mesh) {
@@ -86,7 +100,7 @@ void ObjectPass::upload_materials(const Mesh& mesh) {
   materials_ = make_buffer("materials", std::span<const shader_interface::SurfaceMaterial>(materials));
 }
 
-void ObjectPass::upload_hierarchy(const Mesh& mesh) {
+void ObjectPass::upload_hierarchy(const Mesh& mesh, float ray_start_m) {
   SkipBvh bvh;
   if (reflects_) bvh = build_skip_bvh(mesh);
   std::vector<glm::uvec4> triangles;
@@ -96,6 +110,11 @@ void ObjectPass::upload_hierarchy(const Mesh& mesh) {
   }
   bvh_nodes_ = make_buffer("hierarchy", std::span<const SkipNode>(bvh.nodes));
   bvh_triangles_ = make_buffer("hierarchy's triangles", std::span<const glm::uvec4>(triangles));
+  const std::vector<float> mirrors_object = find_mirrors_object(bvh, mesh, ray_start_m);
+  mirrors_object_ = make_buffer("mirrors object", std::span<const float>(mirrors_object));
+  const GLuint array = vertex_array_.id();
+  glVertexArrayVertexBuffer(array, 2, mirrors_object_.id(), 0, sizeof(float));
+  set_attribute(array, ATTRIBUTE_MIRRORS_OBJECT, 2, 0, 1);
 }
 
 void ObjectPass::light_by(const LightTransfer& light, const ShadowedLights& lights) {

@@ -18,8 +18,9 @@ namespace catchlight::render {
 class ObjectPass {
  public:
   /// `rest`: the reflections less the lights that are split off; not used without any.
+  /// `ray_start_m`: how far above a surface its rays start.
   ObjectPass(const Mesh& mesh, LitPoints vertices_lit, const ReflectionMap& reflections, const ReflectionMap& rest,
-             ShaderLibrary& shaders);
+             float ray_start_m, ShaderLibrary& shaders);
 
   /// Finds the object's exit radiance under `light`; needed again whenever the light turns. `lights` must be up to date.
   void light_by(const LightTransfer& light, const ShadowedLights& lights);
@@ -44,14 +45,14 @@ class ObjectPass {
 
   void upload_mesh(const Mesh& mesh);
   void upload_materials(const Mesh& mesh);
-  void upload_hierarchy(const Mesh& mesh);
+  void upload_hierarchy(const Mesh& mesh, float ray_start_m);
 
   Program& program_;
   LitPoints exit_radiance_;
   PointCapture vertex_lights_capture_, triangle_lights_capture_;
   int kept_triangles_;
   GlBuffer vertex_lights_, triangle_lights_;  ///< what vertices and triangles see of the lights; triangles as they are drawn
-  GlBuffer vertices_, indices_, materials_, bvh_nodes_, bvh_triangles_;
+  GlBuffer vertices_, indices_, materials_, bvh_nodes_, bvh_triangles_, mirrors_object_;
   GlVertexArray vertex_array_;
   GlTexture probe_, rest_, brdf_table_;
   std::vector<Batch> batches_;

@@ -95,4 +95,22 @@ SkipBvh build_skip_bvh(const Mesh& mesh) {
   return result;
 }
 
+bool reaches_above(const SkipBvh& bvh, const Mesh& mesh, const glm::vec3& point_m, const glm::vec3& normal, float height_m) {
+  const auto is_above = [&](const glm::vec3& place_m) { return glm::dot(place_m - point_m, normal) > height_m; };
+  for (std::size_t i = 0; i < bvh.nodes.size();) {
+    const SkipNode& node = bvh.nodes[i];
+    if (!is_above(glm::mix(node.min_m, node.max_m, glm::greaterThan(normal, glm::vec3(0))))) {
+      i = node.skip;
+      continue;
+    }
+    for (std::uint32_t t = node.triangles >> 3; t < (node.triangles >> 3) + (node.triangles & 7); ++t) {
+      const std::uint32_t* corner = &mesh.indices[3 * static_cast<std::size_t>(bvh.triangles[t])];
+      for (int k = 0; k < 3; ++k)
+        if (is_above(mesh.vertices[corner[k]].position_m)) return true;
+    }
+    ++i;
+  }
+  return false;
+}
+
 }  // namespace catchlight::render

@@ -26,4 +26,8 @@ struct SkipBvh {
 /// Throws Error where memory runs out. A mesh without triangles has no nodes.
 SkipBvh build_skip_bvh(const Mesh& mesh);
 
+/// Whether some of the mesh, whose hierarchy it is, lies more than `height_m` above the plane through a point. `normal` has
+/// length 1.
+bool reaches_above(const SkipBvh& bvh, const Mesh& mesh, const glm::vec3& point_m, const glm::vec3& normal, float height_m);
+
 }  // namespace catchlight::render

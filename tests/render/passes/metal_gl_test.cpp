@@ -7,6 +7,7 @@
 
 #include "render/cpu/cpu_compositor.hpp"
 #include "render/gl_compositor.hpp"
+#include "render/rays/skip_bvh.hpp"
 #include "tests/support/gl_fixture.hpp"
 
 namespace catchlight::render::test {
@@ -60,6 +61,24 @@ TEST_F(MetalGl, AGrooveReddensByEachOfItsMirrors) {
       for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(pixel[c], expected[c], 0.01) << reflections << " reflections, pixel " << x << ", channel " << c;
     }
+  }
+}
+
+TEST_F(MetalGl, OnlyWhatHasSomethingAboveItMeetsTheObject) {
+  // A ball under a square: the planes through its surface that pass below one of the square's corners.
+  Mesh mesh = sphere(0.03, {0, 0, 0.05}, 24);
+  const SkipBvh of_ball = build_skip_bvh(mesh);
+  for (const Vertex& vertex : mesh.vertices)
+    EXPECT_FALSE(reaches_above(of_ball, mesh, vertex.position_m, vertex.normal, 1e-6f)) << "a ball mirrors nothing of itself";
+  const std::size_t of_ball_alone = mesh.vertices.size();
+  append(mesh, square({-0.03, -0.03}, {0.03, 0.03}, 0.1));
+  const SkipBvh of_both = build_skip_bvh(mesh);
+  for (std::size_t v = 0; v < of_ball_alone; ++v) {
+    const glm::vec3 p = mesh.vertices[v].position_m, n = mesh.vertices[v].normal;
+    bool above = false;
+    for (const float x : {-0.03f, 0.03f})
+      for (const float y : {-0.03f, 0.03f}) above = above || glm::dot(glm::vec3(x, y, 0.1f) - p, n) > 1e-6f;
+    EXPECT_EQ(reaches_above(of_both, mesh, p, n, 1e-6f), above);
   }
 }
 
