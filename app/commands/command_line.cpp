@@ -18,6 +18,7 @@ constexpr const char* kDescription =
 constexpr const char* kFooter =
     "`catchlight COMMAND --help` explains a command; `catchlight params` lists what a scene file can say.\n"
     "-q anywhere silences all but errors.";
+constexpr const char* kBoth = "both";  ///< a choice of --renderer
 
 enum ExitCode { kSuccess = 0, kFailure = 1, kUsage = 2 };
 
@@ -103,12 +104,21 @@ void add_recording_options(CLI::App& command, const Context& context, std::strin
   for (const std::string& key : numbered_keys(context.arguments)) add(key)->group("");
 }
 
-void add_renderer_options(CLI::App& command, RecordingOverrides& overrides) {
+void add_renderer_options(CLI::App& command, RecordingOverrides& overrides, bool* both_draw) {
+  std::vector<std::string> choices = name_list<Renderer>();
+  std::string help = "What draws: the processor, OpenGL, or whichever is faster: OpenGL where there is a graphics card";
+  if (both_draw) choices.push_back(kBoth), help += "; both: each frame is drawn by both, and the pictures are compared";
   command
       .add_option_function<std::string>(
-          "--renderer", [&overrides](const std::string& name) { overrides.renderer = value_named<Renderer>(name).value(); },
-          "What draws: the processor, OpenGL, or whichever is faster: OpenGL where there is a graphics card")
-      ->check(CLI::IsMember(name_list<Renderer>()))
+          "--renderer",
+          [&overrides, both_draw](const std::string& name) {
+            if (name == kBoth)
+              *both_draw = true;
+            else
+              overrides.renderer = value_named<Renderer>(name).value();
+          },
+          help)
+      ->check(CLI::IsMember(choices))
       ->default_str(name_of(Renderer::automatic));
   command
       .add_option("--shader-dir", overrides.shader_folder,

@@ -43,8 +43,8 @@ void set_up_track(CLI::App& command, Context& context);
 /// give one (`--object[1].mesh`). `location` and `overrides` must live as long as `command`.
 void add_recording_options(CLI::App& command, const Context& context, std::string& location, RecordingOverrides& overrides);
 
-/// Adds --renderer and --shader-dir, for commands that draw.
-void add_renderer_options(CLI::App& command, RecordingOverrides& overrides);
+/// Adds --renderer and --shader-dir, for commands that draw. `both_draw`, where not null: "both" is a choice too, which sets it.
+void add_renderer_options(CLI::App& command, RecordingOverrides& overrides, bool* both_draw = nullptr);
 
 /// Runs the command that the arguments name. Exit code 0, 2 for a command line that cannot be carried out, 1 for anything else;
 /// an error is one message on stderr.

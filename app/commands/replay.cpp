@@ -16,7 +16,7 @@ namespace {
 struct Options {
   std::string location, sheets = "out/replay";
   RecordingOverrides overrides;
-  bool bless = false;
+  bool bless = false, both_draw = false;
 };
 
 void print_header() {
@@ -41,6 +41,15 @@ void print_row(const ReplayResult& result, const char* verdict) {
   for (const auto region : {&TruthComparison::mask, &TruthComparison::shadow, &TruthComparison::elsewhere})
     print_pictures(result.pictures, region);
   std::printf(" | %s\n", verdict);
+}
+
+void print_renderers(const ReplayResult& result) {
+  if (!result.renderers) return;
+  const auto& [frames, worst, frame_of_mean, frame_of_p99] = *result.renderers;
+  std::printf(
+      "%-10s cpu and gl differ by at most %.3f (mean, frame %lld) and %.3f (99th percentile, frame %lld) of 255 in %d frames\n",
+      result.name.c_str(), worst.mean, static_cast<long long>(frame_of_mean), worst.p99, static_cast<long long>(frame_of_p99),
+      frames);
 }
 
 /// The lines that say what drifted; empty where nothing did or it was blessed.
@@ -76,17 +85,23 @@ void check_outputs(const Options& options, const std::vector<std::string>& folde
 void replay(const Options& options, Context& context) {
   const std::vector<std::string> folders = find_recordings(options.location);
   check_outputs(options, folders);
-  std::vector<std::string> drifted;
+  std::vector<std::string> drifted, apart;
   std::vector<std::pair<ReplayResult, const char*>> rows;
   for (const std::string& folder : folders) {
-    const ReplayResult result = replay_recording(folder, options.overrides, sheet_path(options, folder), context.log);
+    const ReplayResult result =
+        replay_recording(folder, options.overrides, options.both_draw, sheet_path(options, folder), context.log);
     const std::vector<std::string> lines = check(result, expected_path(folder), options.bless);
     for (const std::string& line : lines) drifted.push_back(name_of(folder) + ": " + line);
+    if (result.renderers)
+      for (const std::string& line : drift(*result.renderers)) apart.push_back(name_of(folder) + ": " + line);
     rows.emplace_back(result, options.bless ? "blessed" : lines.empty() ? "as expected" : "DRIFTED");
   }
   print_header();
   for (const auto& [result, verdict] : rows) print_row(result, verdict);
+  for (const auto& [result, verdict] : rows) print_renderers(result);
   std::printf("Errors of 255 against the truth; sheets plate | ours | truth | difference x 8 in %s\n", options.sheets.c_str());
+  for (const std::string& line : apart) context.log.error(line);
+  if (!apart.empty()) context.exit_code = 1;
   if (drifted.empty()) return;
   for (const std::string& line : drifted) context.log.error(line);
   context.log.error("if the sheets in " + options.sheets + " show that this is right, run: catchlight replay " +
@@ -99,7 +114,7 @@ void replay(const Options& options, Context& context) {
 void set_up_replay(CLI::App& command, Context& context) {
   const auto options = std::make_shared<Options>();
   add_recording_options(command, context, options->location, options->overrides);
-  add_renderer_options(command, options->overrides);
+  add_renderer_options(command, options->overrides, &options->both_draw);
   command.add_option("-o,--output", options->sheets, "folder for the sheets")->capture_default_str();
   command.add_flag("--bless", options->bless, "write what is measured to each recording's expected.toml");
   command.callback([options, &context] { replay(*options, context); });

@@ -26,6 +26,7 @@ void run_stages(Session& session, const std::function<void(FrameJob&)>& write, S
   pass_on(tracked, drawn, [&](FrameJob& job) {
     const bool is_drawn = !job.is_before_range && options.wants(job);
     is_drawn ? session.render(job) : session.skip(job);
+    if (is_drawn) options.look(job);
     return is_drawn;
   });
   left_over.pop();  // waits for the end, and throws what came with it

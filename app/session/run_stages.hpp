@@ -10,6 +10,8 @@ namespace catchlight::app {
 struct StageOptions {
   /// Which frames of the range are drawn; the others are skipped. Called on the thread that draws.
   std::function<bool(const FrameJob&)> wants = [](const FrameJob&) { return true; };
+  /// Sees each frame that was drawn, on the thread that draws, before it is written.
+  std::function<void(const FrameJob&)> look = [](const FrameJob&) {};
   std::size_t queue_length = 4;  ///< frames that may wait before each step; 1 for live footage, which must not fall behind
 };
 

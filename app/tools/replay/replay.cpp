@@ -117,20 +117,30 @@ std::vector<std::string> find_recordings(const std::string& location) {
   return folders;
 }
 
-ReplayResult replay_recording(const std::string& location, const RecordingOverrides& overrides, const std::string& sheet_path,
-                              Log& log) {
+ReplayResult replay_recording(const std::string& location, const RecordingOverrides& overrides, bool both_draw,
+                              const std::string& sheet_path, Log& log) {
   Recording recording = open_recording(location, overrides);
   if (!recording.scene.is_by_hand("glare.enabled")) recording.scene.glare.enabled = false;
   recording.scene.lens.noise = Switch::off;
+  if (both_draw) recording.scene.renderer = Renderer::cpu;
   Session session(std::move(recording), {.keeps_track = true}, log);
   TruthFrames truth(session.recording().folder);
-  run_stages(session, [&](const FrameJob& job) { truth.compare(job.image, job.result); },
-             {.wants = [&](const FrameJob& job) { return truth.has(job.image.number()); }});
+  std::optional<RendererComparison> renderers;
+  if (both_draw) renderers.emplace(session.settings(), session.camera(), log);
+  const auto has_truth = [&](const FrameJob& job) { return truth.has(job.image.number()); };
+  const auto write = [&](const FrameJob& job) {
+    if (has_truth(job)) truth.compare(job.image, job.result);
+  };
+  const auto look = [&](const FrameJob& job) {
+    if (renderers) renderers->compare(job);
+  };
+  run_stages(session, write, {.wants = [&](const FrameJob& job) { return both_draw || has_truth(job); }, .look = look});
   if (session.damage()) throw Error(*session.damage());
   session.warn_of_track();
 
   ReplayResult result;
   result.name = session.recording().name;
+  if (renderers) result.renderers = renderers->difference();
   if (const auto& poses = session.recording().poses_csv) {
     result.pose =
         compare_poses(session.track_rows(), tracking::read_track_file(*poses), session.camera(), session.settings().tag.size_m);

@@ -1,0 +1,58 @@
+// replay --renderer both: the processor's pictures against OpenGL's, frame by frame.
+#include <gmock/gmock.h>
+
+#include "tests/app/commands/overlay_command.hpp"
+
+namespace catchlight::tests {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// Three frames of a shipped recording with its poses; bakes little.
+class ReplayOfBothRenderers : public OverlayCommand {
+ protected:
+  void SetUp() override { fs::copy(recording() + "/poses.csv", copy_ + "/poses.csv"); }
+
+  CommandResult replay(std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"replay",           copy_, "-o", folder_.path("sheets"), "--bless", "--quality.rays=64",
+                                          "--quality.bands=2"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_catchlight(arguments, {{"XDG_CACHE_HOME", folder_.path("cache")}});
+  }
+
+  const std::string copy_ = copied_recording(3);
+};
+
+TEST_F(ReplayOfBothRenderers, SaysHowFarTheyAreApart) {
+  const CommandResult both = replay({"--renderer", "both"});
+  EXPECT_EQ(both.exit_code, 0) << both.error;
+  EXPECT_THAT(both.output, HasSubstr("recording  cpu and gl differ by at most 0."));
+  EXPECT_THAT(both.output, HasSubstr("in 3 frames"));
+  for (const char* one : {"cpu", "gl"}) {
+    const CommandResult alone = replay({"--renderer", one});
+    EXPECT_EQ(alone.exit_code, 0) << alone.error;
+    EXPECT_THAT(alone.output, Not(HasSubstr("cpu and gl")));
+  }
+}
+
+TEST_F(ReplayOfBothRenderers, FailsWhereTheyDrawDifferentPicturesWhateverIsBlessed) {
+  const std::string shaders = folder_.path("shaders");
+  fs::copy(CATCHLIGHT_SOURCE_DIR "/shaders", shaders);
+  replace_in(shaders + "/composite.frag", "vec4(new_code, changed", "vec4(new_code + 0.03, changed");
+  const CommandResult both = replay({"--renderer", "both", "--shader-dir", shaders});
+  EXPECT_EQ(both.exit_code, 1);
+  EXPECT_THAT(both.error, HasSubstr("recording: cpu and gl differ in frame"));
+  EXPECT_THAT(both.error, HasSubstr("99th percentile 7."));
+  EXPECT_THAT(both.error, HasSubstr("of 255, expected at most 2.0"));
+}
+
+TEST_F(ReplayOfBothRenderers, IsAChoiceOfReplayAlone) {
+  const CommandResult overlaid = overlay(copy_, out_, {"--renderer", "both"});
+  EXPECT_EQ(overlaid.exit_code, 2);
+  EXPECT_THAT(overlaid.error, HasSubstr("both"));
+}
+
+}  // namespace
+}  // namespace catchlight::tests
