@@ -179,9 +179,14 @@ PlateReader plate_f32(const std::function<glm::vec3(int, int)>& code) {
   };
 }
 
+bool holds(const Composite& composite, int x, int y) {
+  const PixelRect& r = composite.rect;
+  return x >= r.x && y >= r.y && x < r.x + r.width && y < r.y + r.height;
+}
+
 glm::vec4 pixel_at(const Composite& composite, int x, int y) {
   const PixelRect& r = composite.rect;
-  if (x < r.x || y < r.y || x >= r.x + r.width || y >= r.y + r.height) {
+  if (!holds(composite, x, y)) {
     ADD_FAILURE() << "pixel " << x << ", " << y << " is outside the composite";
     return {};
   }

@@ -65,4 +65,7 @@ PlateReader plate_f32(const std::function<glm::vec3(int, int)>& code);
 /// The composite's pixel at (x, y) of the frame.
 glm::vec4 pixel_at(const Composite& composite, int x, int y);
 
+/// Whether the composite holds that pixel; beyond it the frame is the plate's.
+bool holds(const Composite& composite, int x, int y);
+
 }  // namespace catchlight::render::test

@@ -4,11 +4,11 @@
 #include "catchlight/plate.hpp"
 #include "catchlight/projection.hpp"
 #include "catchlight/rigid_transform.hpp"
-#include "render/gl_compositor.hpp"
 #include "render/frame_view.hpp"
 #include "render/passes/camera_blur_pass.hpp"
 #include "render/render_scene.hpp"
 #include "tests/support/gl_fixture.hpp"
+#include "tests/support/renderers.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,26 +16,28 @@
 namespace catchlight::render::test {
 namespace {
 
-class CameraBlurGl : public GlTest {
- protected:
-  /// A white square 24 x 20 px large in the middle of a black plate, seen straight from above; codes are light.
-  static RenderScene white_square() {
-    Material white;
-    white.base_color = glm::vec3(1);
-    white.dielectric_f0 = 0;
-    constexpr double kPx_m = 0.5 / 200;
-    return constant_scene(square({-12 * kPx_m, -10 * kPx_m}, {12 * kPx_m, 10 * kPx_m}, 0), white, glm::vec3(1));
-  }
+template <typename Renderer>
+using CameraBlurGl = EachRenderer<Renderer>;
+TYPED_TEST_SUITE(CameraBlurGl, Renderers, RendererNames);
 
-  static PlateReader black() {
-    return plate_f32([](int, int) { return glm::vec3(0); });
-  }
+/// A white square 24 x 20 px large in the middle of a black plate, seen straight from above; codes are light.
+RenderScene white_square() {
+  Material white;
+  white.base_color = glm::vec3(1);
+  white.dielectric_f0 = 0;
+  constexpr double kPx_m = 0.5 / 200;
+  return constant_scene(square({-12 * kPx_m, -10 * kPx_m}, {12 * kPx_m, 10 * kPx_m}, 0), white, glm::vec3(1));
+}
 
-  static Composite seen(const FrameView& view) {
-    GlCompositor compositor(white_square(), without_glare());
-    return compositor.render(view, black());
-  }
-};
+PlateReader black() {
+  return plate_f32([](int, int) { return glm::vec3(0); });
+}
+
+template <typename Renderer>
+Composite seen(const FrameView& view) {
+  Renderer compositor(white_square(), without_glare());
+  return compositor.render(view, black());
+}
 
 double sum_of(const Composite& composite) {
   double sum = 0;
@@ -86,12 +88,12 @@ TEST(DiscreteGaussian, TwiceIsOnceWithBothVariances) {
   }
 }
 
-TEST_F(CameraBlurGl, DefocusAddsItsVarianceAlongBothAxesAndKeepsTheEnergy) {
-  const Composite sharp = seen(linear_view_from_above());
+TYPED_TEST(CameraBlurGl, DefocusAddsItsVarianceAlongBothAxesAndKeepsTheEnergy) {
+  const Composite sharp = seen<TypeParam>(linear_view_from_above());
   for (const double variance : {0.05, 0.3, 2.0, 9.0}) {
     FrameView view = linear_view_from_above();
     view.effects.defocus_px2 = variance;
-    const Composite blurred = seen(view);
+    const Composite blurred = seen<TypeParam>(view);
     EXPECT_NEAR(sum_of(blurred) / sum_of(sharp), 1, 1e-4) << variance;
     const glm::dmat2 added = spread_of(blurred) - spread_of(sharp);
     EXPECT_NEAR(added[0][0] / variance, 1, 0.01) << variance;
@@ -100,10 +102,10 @@ TEST_F(CameraBlurGl, DefocusAddsItsVarianceAlongBothAxesAndKeepsTheEnergy) {
   }
 }
 
-TEST_F(CameraBlurGl, MotionAddsATwelfthOfItsSquareAlongItsWay) {
-  const Composite sharp = seen(linear_view_from_above());
+TYPED_TEST(CameraBlurGl, MotionAddsATwelfthOfItsSquareAlongItsWay) {
+  const Composite sharp = seen<TypeParam>(linear_view_from_above());
   for (const glm::dvec2 way : {glm::dvec2(1, 0), {3, 0}, {0, 5.5}, {8, 0}, {9.3, 0}, {0, 20}}) {
-    const Composite blurred = seen(moving(way));
+    const Composite blurred = seen<TypeParam>(moving(way));
     EXPECT_NEAR(sum_of(blurred) / sum_of(sharp), 1, 1e-4);
     const glm::dmat2 added = spread_of(blurred) - spread_of(sharp);
     for (int i = 0; i < 2; ++i)
@@ -111,10 +113,10 @@ TEST_F(CameraBlurGl, MotionAddsATwelfthOfItsSquareAlongItsWay) {
   }
 }
 
-TEST_F(CameraBlurGl, MotionAslantBlursAlongItsWayAndLessThanHalfAPixelAcross) {
-  const Composite sharp = seen(linear_view_from_above());
+TYPED_TEST(CameraBlurGl, MotionAslantBlursAlongItsWayAndLessThanHalfAPixelAcross) {
+  const Composite sharp = seen<TypeParam>(linear_view_from_above());
   for (const glm::dvec2 way : {glm::dvec2(6, 6), {8, 3}, {-4, 9}}) {
-    const glm::dmat2 added = spread_of(seen(moving(way))) - spread_of(sharp);
+    const glm::dmat2 added = spread_of(seen<TypeParam>(moving(way))) - spread_of(sharp);
     const glm::dvec2 along = glm::normalize(way), across(-along.y, along.x);
     const double expected = glm::dot(way, way) / 12;
     EXPECT_NEAR(glm::dot(along, added * along) / expected, 1, 0.08);
@@ -123,10 +125,10 @@ TEST_F(CameraBlurGl, MotionAslantBlursAlongItsWayAndLessThanHalfAPixelAcross) {
   }
 }
 
-TEST_F(CameraBlurGl, ABlurredEdgeIsTheBoxesRamp) {
+TYPED_TEST(CameraBlurGl, ABlurredEdgeIsTheBoxesRamp) {
   // 9 px of way: an upright edge becomes a straight ramp 9 px wide, but that steps of whole pixels cannot show where in a pixel
   // it begins: half a pixel of ramp, 1/2 * 1/2 * 1/2 / 9 of the light.
-  const Composite blurred = seen(moving({9, 0}));
+  const Composite blurred = seen<TypeParam>(moving({9, 0}));
   const double left = 80 - 12;  // the edge, in pixels from the picture's left
   for (int x = 58; x < 76; ++x) {
     double covered = 0;  // a pixel's own square over the ramp, by 1000 points
@@ -135,9 +137,9 @@ TEST_F(CameraBlurGl, ABlurredEdgeIsTheBoxesRamp) {
   }
 }
 
-TEST_F(CameraBlurGl, AStillViewIsTheSameToTheLastBit) {
+TYPED_TEST(CameraBlurGl, AStillViewIsTheSameToTheLastBit) {
   FrameView view = linear_view_from_above();
-  GlCompositor compositor(white_square(), without_glare());
+  TypeParam compositor(white_square(), without_glare());
   compositor.render(view, black());  // lights the object
   const Composite plain = compositor.render(view, black());
   const std::size_t passes = compositor.pass_times().size();
@@ -148,31 +150,34 @@ TEST_F(CameraBlurGl, AStillViewIsTheSameToTheLastBit) {
   EXPECT_TRUE(plan_camera_blur(linear_view_from_above(), distortion_limit({}), {glm::vec3(-1), glm::vec3(1)}).empty());
 }
 
-TEST_F(CameraBlurGl, TheShadowIsBlurredAsTheObjectIs) {
+TYPED_TEST(CameraBlurGl, TheShadowIsBlurredAsTheObjectIs) {
   RenderScene scene = white_square();
   add_receiver(scene.transfer, {.min_m = {-0.15f, -0.1f}, .max_m = {0.15f, 0.1f}, .columns = 121, .rows = 81},
                [](double x, double) { return std::abs(x) < 0.08 ? 0.5 : 1.0; });
-  GlCompositor compositor(scene, without_glare());
+  TypeParam compositor(scene, without_glare());
   FrameView view = moving({12, 0});
   const Composite sharp = compositor.render(linear_view_from_above(), linear_grey_plate()),
                   blurred = compositor.render(view, linear_grey_plate());
+  const auto light = [](const Composite& composite, int x) {
+    return holds(composite, x, 60) ? double{pixel_at(composite, x, 60).x} : 0.5;
+  };
   double sharp_sum = 0, blurred_sum = 0, steepest_sharp = 0, steepest_blurred = 0;
   for (int x = 30; x < 61; ++x) {  // as far as the object's blur does not reach
-    sharp_sum += pixel_at(sharp, x, 60).x, blurred_sum += pixel_at(blurred, x, 60).x;
-    steepest_sharp = std::max(steepest_sharp, double{pixel_at(sharp, x, 60).x - pixel_at(sharp, x + 1, 60).x});
-    steepest_blurred = std::max(steepest_blurred, double{pixel_at(blurred, x, 60).x - pixel_at(blurred, x + 1, 60).x});
+    sharp_sum += light(sharp, x), blurred_sum += light(blurred, x);
+    steepest_sharp = std::max(steepest_sharp, light(sharp, x) - light(sharp, x + 1));
+    steepest_blurred = std::max(steepest_blurred, light(blurred, x) - light(blurred, x + 1));
   }
   EXPECT_NEAR(blurred_sum / sharp_sum, 1, 0.01);
   EXPECT_LT(steepest_blurred, 0.26 / 12 * 1.1) << "a quarter of light over twelve pixels";
   EXPECT_GT(steepest_sharp, 2 * steepest_blurred);
 }
 
-TEST_F(CameraBlurGl, BlurAtTheFramesEdgeAndOfExtremeLightStaysFinite) {
+TYPED_TEST(CameraBlurGl, BlurAtTheFramesEdgeAndOfExtremeLightStaysFinite) {
   FrameView view = moving({500, 300});
   view.camera_from_tag.translation_m.x = 0.19;
   view.effects.defocus_px2 = 1e6;
   view.exposure = glm::vec3(1e6f);
-  const Composite composite = seen(view);
+  const Composite composite = seen<TypeParam>(view);
   ASSERT_FALSE(composite.rect.empty());
   EXPECT_EQ(composite.rect, intersect(composite.rect, {0, 0, 160, 120}));
   for (const float value : composite.rgba) ASSERT_TRUE(std::isfinite(value));

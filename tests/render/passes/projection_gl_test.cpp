@@ -8,16 +8,18 @@
 #include "catchlight/composite.hpp"
 #include "catchlight/plate.hpp"
 #include "catchlight/response.hpp"
-#include "render/gl_compositor.hpp"
 #include "render/frame_view.hpp"
 #include "render/render_scene.hpp"
 #include "render/settings.hpp"
 #include "tests/support/gl_fixture.hpp"
+#include "tests/support/renderers.hpp"
 
 namespace catchlight::render::test {
 namespace {
 
-class ProjectionGl : public GlTest {};
+template <typename Renderer>
+using ProjectionGl = EachRenderer<Renderer>;
+TYPED_TEST_SUITE(ProjectionGl, Renderers, RendererNames);
 
 std::vector<cv::Point2d> project(const FrameView& view, const std::vector<cv::Point3d>& points_tag) {
   const CameraModel& camera = view.camera;
@@ -99,13 +101,13 @@ FrameView tilted_view(std::mt19937& random) {
   return view;
 }
 
-TEST_F(ProjectionGl, PixelCentresAreOpenCvs) {
+TYPED_TEST(ProjectionGl, PixelCentresAreOpenCvs) {
   CompositorSettings settings;
   settings.samples = 4;
   std::mt19937 random(3);
   const PlateReader black = plate_f32([](int, int) { return glm::vec3(0); });
   const glm::dvec2 center(0.02, -0.01);
-  GlCompositor compositor(white_disc(center, 0.02), settings);
+  TypeParam compositor(white_disc(center, 0.02), settings);
   for (const auto& distortion : {std::array<double, 8>{}, std::array<double, 8>{-0.3, 0.1, 0.002, -0.001, 0, 0, 0, 0}}) {
     glm::dvec2 bias(0);
     constexpr int kViews = 40;
@@ -124,19 +126,19 @@ TEST_F(ProjectionGl, PixelCentresAreOpenCvs) {
   }
 }
 
-TEST_F(ProjectionGl, PictureRightIsTagRightAndPictureUpIsTagUp) {
+TYPED_TEST(ProjectionGl, PictureRightIsTagRightAndPictureUpIsTagUp) {
   const PlateReader black = plate_f32([](int, int) { return glm::vec3(0); });
   FrameView view = view_from_above();
   view.color.transfer = TransferFunction::linear;
-  const glm::dvec2 right = centroid(GlCompositor(white_disc({0.05, 0}, 0.02), {}).render(view, black));
-  const glm::dvec2 up = centroid(GlCompositor(white_disc({0, 0.05}, 0.02), {}).render(view, black));
+  const glm::dvec2 right = centroid(TypeParam(white_disc({0.05, 0}, 0.02), {}).render(view, black));
+  const glm::dvec2 up = centroid(TypeParam(white_disc({0, 0.05}, 0.02), {}).render(view, black));
   EXPECT_NEAR(right.x, 79.5 + 20, 0.05);
   EXPECT_NEAR(right.y, 59.5, 0.05);
   EXPECT_NEAR(up.x, 79.5, 0.05);
   EXPECT_NEAR(up.y, 59.5 - 20, 0.05);
 }
 
-TEST_F(ProjectionGl, TheNearerSurfaceHidesTheFarther) {
+TYPED_TEST(ProjectionGl, TheNearerSurfaceHidesTheFarther) {
   Material red, green;
   red.base_color = {1, 0, 0};
   green.base_color = {0, 1, 0};
@@ -150,7 +152,7 @@ TEST_F(ProjectionGl, TheNearerSurfaceHidesTheFarther) {
   const RenderScene scene = constant_scene(mesh, red, glm::vec3(1));
   FrameView view = view_from_above();
   view.color.transfer = TransferFunction::linear;
-  const Composite composite = GlCompositor(scene, {}).render(view, plate_u8(0));
+  const Composite composite = TypeParam(scene, {}).render(view, plate_u8(0));
   EXPECT_NEAR(pixel_at(composite, 80, 60).x, 1, 1e-4);
   EXPECT_NEAR(pixel_at(composite, 80, 60).y, 0, 1e-4);
   EXPECT_NEAR(pixel_at(composite, 95, 60).y, 1, 1e-4);

@@ -5,16 +5,18 @@
 #include "catchlight/plate.hpp"
 #include "catchlight/response.hpp"
 #include "catchlight/rigid_transform.hpp"
-#include "render/gl_compositor.hpp"
 #include "render/frame_view.hpp"
 #include "render/render_scene.hpp"
 #include "render/settings.hpp"
 #include "tests/support/gl_fixture.hpp"
+#include "tests/support/renderers.hpp"
 
 namespace catchlight::render::test {
 namespace {
 
-class ReflectionGl : public GlTest {};
+template <typename Renderer>
+using ReflectionGl = EachRenderer<Renderer>;
+TYPED_TEST_SUITE(ReflectionGl, Renderers, RendererNames);
 
 constexpr double kRadius_m = 0.1;
 
@@ -47,9 +49,9 @@ std::optional<glm::dvec3> mirrored_direction(const FrameView& view, double x, do
   return glm::reflect(ray, glm::normalize(eye + ray * (-b - std::sqrt(discriminant))));
 }
 
-TEST_F(ReflectionGl, MirrorSphereShowsWhatARayTracerSees) {
+TYPED_TEST(ReflectionGl, MirrorSphereShowsWhatARayTracerSees) {
   const auto radiance = [](const glm::dvec3& d) { return glm::vec3(1.5 + d.x + 0.3 * d.y, 1.5 + d.y * d.z, 1.5 + d.z); };
-  GlCompositor compositor(mirror_sphere(radiance), without_glare());
+  TypeParam compositor(mirror_sphere(radiance), without_glare());
   const FrameView view = linear_view(0.5);
   const Composite composite = compositor.render(view, kBlackPlate);
   int compared = 0;
@@ -66,10 +68,10 @@ TEST_F(ReflectionGl, MirrorSphereShowsWhatARayTracerSees) {
   EXPECT_GT(compared, 4400);
 }
 
-TEST_F(ReflectionGl, APixelAveragesTheFootprintOfACurvedMirror) {
+TYPED_TEST(ReflectionGl, APixelAveragesTheFootprintOfACurvedMirror) {
   // Surroundings too fine for one sample a pixel: the average over 16 x 16 rays a pixel is the truth.
   const auto stripes = [](const glm::dvec3& d) { return glm::vec3(1 + 0.9 * std::sin(10 * d.x)); };
-  GlCompositor compositor(mirror_sphere(stripes), without_glare());
+  TypeParam compositor(mirror_sphere(stripes), without_glare());
   const FrameView view = linear_view(1.5);
   const Composite composite = compositor.render(view, kBlackPlate);
   double error = 0, one_ray_error = 0;
@@ -110,10 +112,10 @@ std::function<glm::vec3(const glm::dvec3&)> lamp_at(const glm::dvec3& axis) {
   return [axis](const glm::dvec3& d) { return glm::vec3(glm::dot(d, axis) > 0.97 ? 1.0f : 0.0f); };
 }
 
-TEST_F(ReflectionGl, ALampOnEachAxisShowsOnItsSide) {
+TYPED_TEST(ReflectionGl, ALampOnEachAxisShowsOnItsSide) {
   // Seen from above: tag x is right, tag y is up, tag z comes towards the camera.
   const auto side = [&](const glm::dvec3& axis) {
-    return brightest_side(GlCompositor(mirror_sphere(lamp_at(axis)), without_glare()).render(linear_view(0.5), kBlackPlate));
+    return brightest_side(TypeParam(mirror_sphere(lamp_at(axis)), without_glare()).render(linear_view(0.5), kBlackPlate));
   };
   EXPECT_GT(side({1, 0, 0}).x, 15);
   EXPECT_LT(side({-1, 0, 0}).x, -15);
@@ -122,18 +124,18 @@ TEST_F(ReflectionGl, ALampOnEachAxisShowsOnItsSide) {
   EXPECT_LT(glm::length(glm::vec2(side({0, 0, 1}))), 8);
 }
 
-TEST_F(ReflectionGl, DiffuseLightComesFromTheLampsSideToo) {
+TYPED_TEST(ReflectionGl, DiffuseLightComesFromTheLampsSideToo) {
   RenderScene scene = constant_scene(sphere(kRadius_m, {0, 0, 0}), Material{}, glm::vec3(0));
   for (const glm::dvec3& axis : {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, -1, 0)}) {
     std::vector<float> y(9);
     evaluate_sh(axis, 3, y);
     for (std::size_t i = 0; i < 9; ++i) scene.light[i] = glm::vec3(y[i]);
-    const glm::ivec2 side = brightest_side(GlCompositor(scene, without_glare()).render(linear_view(0.5), kBlackPlate));
+    const glm::ivec2 side = brightest_side(TypeParam(scene, without_glare()).render(linear_view(0.5), kBlackPlate));
     EXPECT_GT(glm::dot(glm::dvec2(side), glm::dvec2(axis.x, -axis.y)), 15) << axis.x << " " << axis.y;
   }
 }
 
-TEST_F(ReflectionGl, ATurnedLightTurnsReflectionAndDiffuseAlike) {
+TYPED_TEST(ReflectionGl, ATurnedLightTurnsReflectionAndDiffuseAlike) {
   // The probe's lamp is on +x; turned by 90 degrees about z it stands on +y, which is up in the picture.
   RenderScene scene = mirror_sphere(lamp_at({1, 0, 0}));
   std::vector<float> y(9);
@@ -141,14 +143,14 @@ TEST_F(ReflectionGl, ATurnedLightTurnsReflectionAndDiffuseAlike) {
   for (std::size_t i = 0; i < 9; ++i) scene.light[i] = glm::vec3(y[i]);
   FrameView view = linear_view(0.5);
   view.tag_from_light = glm::dmat3(0, 1, 0, -1, 0, 0, 0, 0, 1);
-  EXPECT_LT(brightest_side(GlCompositor(scene, without_glare()).render(view, kBlackPlate)).y, -15);
+  EXPECT_LT(brightest_side(TypeParam(scene, without_glare()).render(view, kBlackPlate)).y, -15);
   scene.mesh.materials[0] = Material{};
   scene.transfer = unshadowed_transfer(scene.mesh, 3);
   scene.reflections.levels.clear();
-  EXPECT_LT(brightest_side(GlCompositor(scene, without_glare()).render(view, kBlackPlate)).y, -15);
+  EXPECT_LT(brightest_side(TypeParam(scene, without_glare()).render(view, kBlackPlate)).y, -15);
 }
 
-TEST_F(ReflectionGl, RoughnessChoosesTheLevel) {
+TYPED_TEST(ReflectionGl, RoughnessChoosesTheLevel) {
   RenderScene scene = mirror_sphere([](const glm::dvec3&) { return glm::vec3(1); });
   scene.reflections = reflections_of([](const glm::dvec3&) { return glm::vec3(0); }, 16, 5);
   for (std::size_t k = 0; k < 5; ++k)
@@ -157,12 +159,12 @@ TEST_F(ReflectionGl, RoughnessChoosesTheLevel) {
   settings.reflection_rays = 0;  // the whole lobe is read from the probe
   for (const int step : {0, 1, 2, 3, 4}) {
     scene.mesh.materials[0].roughness = static_cast<float>(step) / 4;
-    const float value = pixel_at(GlCompositor(scene, settings).render(linear_view(0.5), kBlackPlate), 80, 60).x;
+    const float value = pixel_at(TypeParam(scene, settings).render(linear_view(0.5), kBlackPlate), 80, 60).x;
     EXPECT_NEAR(value, 1 + step, 1e-4 * (1 + step)) << "a white metal sends back all that its lobe meets";
   }
 }
 
-TEST_F(ReflectionGl, APolishedSurfaceHasNoHalo) {
+TYPED_TEST(ReflectionGl, APolishedSurfaceHasNoHalo) {
   // Variances of lobes add: of the first level's lobe, alpha = 1/16, a roughness r below it mixes in r^4 / alpha^2.
   RenderScene scene = mirror_sphere([](const glm::dvec3&) { return glm::vec3(0); });
   scene.reflections = reflections_of([](const glm::dvec3&) { return glm::vec3(0); }, 16, 5);
@@ -172,18 +174,18 @@ TEST_F(ReflectionGl, APolishedSurfaceHasNoHalo) {
   settings.reflection_rays = 0;
   for (const double roughness : {0.02, 0.05, 0.1, 0.2}) {
     scene.mesh.materials[0].roughness = static_cast<float>(roughness);
-    const double value = pixel_at(GlCompositor(scene, settings).render(linear_view(0.5), kBlackPlate), 80, 60).x;
+    const double value = pixel_at(TypeParam(scene, settings).render(linear_view(0.5), kBlackPlate), 80, 60).x;
     EXPECT_NEAR(value, std::pow(roughness * 4, 4), 0.01) << "hardware mixes levels in steps of 1/256; roughness " << roughness;
   }
 }
 
-TEST_F(ReflectionGl, LevelsOfAnySizeAreAccepted) {
+TYPED_TEST(ReflectionGl, LevelsOfAnySizeAreAccepted) {
   RenderScene scene = mirror_sphere([](const glm::dvec3&) { return glm::vec3(1); });
   scene.reflections.levels.clear();
   for (const int size : {12, 12, 12, 5, 1, 1, 1})
     scene.reflections.levels.push_back(reflections_of([](const glm::dvec3&) { return glm::vec3(2); }, size).levels[0]);
   scene.mesh.materials[0].roughness = 0.1f;
-  EXPECT_NEAR(pixel_at(GlCompositor(scene, without_glare()).render(linear_view(0.5), kBlackPlate), 80, 60).x, 2.0, 0.02);
+  EXPECT_NEAR(pixel_at(TypeParam(scene, without_glare()).render(linear_view(0.5), kBlackPlate), 80, 60).x, 2.0, 0.02);
 }
 
 }  // namespace

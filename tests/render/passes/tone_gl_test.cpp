@@ -10,12 +10,12 @@
 #include "catchlight/pixel_rect.hpp"
 #include "catchlight/plate.hpp"
 #include "catchlight/tone_curve.hpp"
-#include "render/gl_compositor.hpp"
 #include "render/frame_view.hpp"
 #include "render/passes/tone_pass.hpp"
 #include "render/render_scene.hpp"
 #include "render/settings.hpp"
 #include "tests/support/gl_fixture.hpp"
+#include "tests/support/renderers.hpp"
 
 namespace catchlight::render::test {
 namespace {
@@ -147,29 +147,33 @@ void expect_finite_codes(const Composite& composite, double most = 1) {
   for (const float value : composite.rgba) ASSERT_TRUE(value >= 0 && value <= most) << value;
 }
 
-TEST_F(ToneGl, AFlatPlateBecomesTheKey) {
+template <typename Renderer>
+using CompositorToneGl = EachRenderer<Renderer>;
+TYPED_TEST_SUITE(CompositorToneGl, Renderers, RendererNames);
+
+TYPED_TEST(CompositorToneGl, AFlatPlateBecomesTheKey) {
   for (const float light : {0.004f, 0.05f, 0.9f}) {
     const Composite composite =
-        GlCompositor(ball(), automatic()).render(without_pose(), plate_f32([&](int, int) { return glm::vec3(light); }));
+        TypeParam(ball(), automatic()).render(without_pose(), plate_f32([&](int, int) { return glm::vec3(light); }));
     EXPECT_EQ(composite.rect, (PixelRect{0, 0, 160, 120}));
     EXPECT_NEAR(pixel_at(composite, 159, 119).g, 0.18, 1e-5) << light;
     EXPECT_EQ(pixel_at(composite, 0, 0).a, 1) << "every pixel changed";
   }
 }
 
-TEST_F(ToneGl, CodesGoThroughTheFootagesResponse) {
+TYPED_TEST(CompositorToneGl, CodesGoThroughTheFootagesResponse) {
   FrameView view = view_from_above();
   view.has_pose = false;
-  const Composite composite = GlCompositor(ball(), automatic()).render(view, plate_u8(90));
+  const Composite composite = TypeParam(ball(), automatic()).render(view, plate_u8(90));
   EXPECT_NEAR(pixel_at(composite, 80, 60).r, srgb_from_linear(0.18), 1e-5);
 }
 
 /// Plate and object alike: the curve's twin on the CPU, of the light in the layers.
-TEST_F(ToneGl, PlateAndObjectGoThroughOneCurve) {
+TYPED_TEST(CompositorToneGl, PlateAndObjectGoThroughOneCurve) {
   const FrameView view = linear_view_from_above();
   const PlateReader plate =
       plate_f32([](int x, int y) { return glm::vec3(0.001f * static_cast<float>(x + 1), 0.3f, 0.004f * static_cast<float>(y)); });
-  GlCompositor compositor(ball(3), automatic());
+  TypeParam compositor(ball(3), automatic());
   const Composite composite = compositor.render(view, plate);
   const Layers layers = *compositor.render(view, plate, true).layers;
   const Image recomposed = recompose(layers);
@@ -187,33 +191,33 @@ TEST_F(ToneGl, PlateAndObjectGoThroughOneCurve) {
   EXPECT_GT(covered, 300);
 }
 
-TEST_F(ToneGl, IsDrawnWithTheExposureItHasAdaptedTo) {
+TYPED_TEST(CompositorToneGl, IsDrawnWithTheExposureItHasAdaptedTo) {
   FrameView view = without_pose();
   view.tone = ToneCurve{0.5, 1};
-  const Composite composite = GlCompositor(ball(), automatic()).render(view, linear_grey_plate());
+  const Composite composite = TypeParam(ball(), automatic()).render(view, linear_grey_plate());
   EXPECT_NEAR(pixel_at(composite, 3, 3).r, 0.25, 1e-6);
   EXPECT_NEAR(composite.tone_wanted.gain, 0.18 / 0.5, 1e-6) << "what it calls for itself";
 }
 
-TEST_F(ToneGl, MeteringAloneSaysTheSame) {
+TYPED_TEST(CompositorToneGl, MeteringAloneSaysTheSame) {
   const FrameView view = linear_view_from_above();
-  GlCompositor compositor(ball(), automatic());
+  TypeParam compositor(ball(), automatic());
   EXPECT_EQ(compositor.meter(view, linear_grey_plate()).gain, compositor.render(view, linear_grey_plate()).tone_wanted.gain);
 }
 
-TEST_F(ToneGl, WithoutToneAFrameWithoutPoseIsLeftAlone) {
-  EXPECT_TRUE(GlCompositor(ball(), {}).render(without_pose(), linear_grey_plate()).rect.empty());
+TYPED_TEST(CompositorToneGl, WithoutToneAFrameWithoutPoseIsLeftAlone) {
+  EXPECT_TRUE(TypeParam(ball(), {}).render(without_pose(), linear_grey_plate()).rect.empty());
 }
 
-TEST_F(ToneGl, LayersAreTheScenesLight) {
-  const Composite composite = GlCompositor(ball(), automatic()).render(linear_view_from_above(), linear_grey_plate(), true);
+TYPED_TEST(CompositorToneGl, LayersAreTheScenesLight) {
+  const Composite composite = TypeParam(ball(), automatic()).render(linear_view_from_above(), linear_grey_plate(), true);
   EXPECT_EQ(composite.layers->plate.pixel(0, 0)[0], 0.5f);
 }
 
-TEST_F(ToneGl, ExtremePlatesGiveFiniteCodes) {
+TYPED_TEST(CompositorToneGl, ExtremePlatesGiveFiniteCodes) {
   FrameView view = view_from_above();
   view.has_pose = false;
-  GlCompositor compositor(ball(), automatic());
+  TypeParam compositor(ball(), automatic());
   expect_finite_codes(compositor.render(view, plate_u8(0)));
   EXPECT_EQ(pixel_at(compositor.render(view, plate_u8(0)), 7, 7).r, 0) << "black stays black";
   expect_finite_codes(compositor.render(view, plate_u8(255)));
@@ -228,20 +232,20 @@ TEST_F(ToneGl, ExtremePlatesGiveFiniteCodes) {
   }
 }
 
-TEST_F(ToneGl, TwentyStopsEitherWayGiveFiniteCodes) {
+TYPED_TEST(CompositorToneGl, TwentyStopsEitherWayGiveFiniteCodes) {
   FrameView view = view_from_above();
   for (const float ev : {-20.0f, 20.0f}) {
     view.exposure = glm::vec3(std::exp2(ev));
-    const Composite composite = GlCompositor(ball(), automatic()).render(view, plate_u8(120));
+    const Composite composite = TypeParam(ball(), automatic()).render(view, plate_u8(120));
     expect_finite_codes(composite);
     EXPECT_GT(pixel_at(composite, 80, 60).r, ev > 0 ? 0.99f : -1.0f);
   }
 }
 
-TEST_F(ToneGl, AnObjectThatIsNoNumberLeavesTheFrameSane) {
+TYPED_TEST(CompositorToneGl, AnObjectThatIsNoNumberLeavesTheFrameSane) {
   RenderScene scene = ball();
   scene.light.front() = glm::vec3(kInf);
-  const Composite composite = GlCompositor(scene, automatic()).render(view_from_above(), plate_u8(120));
+  const Composite composite = TypeParam(scene, automatic()).render(view_from_above(), plate_u8(120));
   expect_finite_codes(composite);
   EXPECT_GT(pixel_at(composite, 0, 0).r, 0.3);
 }
