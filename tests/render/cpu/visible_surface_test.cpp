@@ -29,7 +29,7 @@ VisibleSurface seen(const Mesh& mesh, const FrameView& view, int samples = 4) {
   PixelRays pixel_rays;
   pixel_rays.set_camera(view.camera, limit);
   const std::vector<glm::vec3> exit_radiance(mesh.vertices.size(), glm::vec3(1, 2, 3));
-  SurfaceFinder finder(mesh, rays, samples);
+  SurfaceFinder finder(mesh, rays, samples, std::vector<char>(mesh.materials.size(), 0));
   return finder.find(view, limit, pixel_rays, {0, 0, view.camera.width_px, view.camera.height_px}, exit_radiance);
 }
 
