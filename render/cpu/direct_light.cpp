@@ -15,6 +15,8 @@ namespace {
 /// Shares of the object's diagonal: how far above a surface its shadow is looked for, which smoothed normals need; how fine
 /// shadows are kept.
 constexpr float kLiftShare = 1.5f / 512, kLatticeShare = 1.0f / 384;
+/// Within triangles longer than this share of the diagonal, shadows are looked for that miss the corners.
+constexpr float kProbedShare = 1.0f / 64;
 /// How much coarser shadows are that are found for one frame alone.
 constexpr float kCoarser = 3;
 constexpr std::uint16_t kMaxLatticeSteps = 96;
@@ -47,7 +49,8 @@ DirectLight::DirectLight(const Mesh& mesh, const RayScene& rays, const Bounds& o
       rays_(rays),
       lift_m_(object.empty() ? 0 : kLiftShare * object.rounded_diagonal_m()),
       fine_step_m_(object.empty() ? 1 : kLatticeShare * object.rounded_diagonal_m()),
-      lattice_step_m_(fine_step_m_) {}
+      lattice_step_m_(fine_step_m_),
+      probed_edge_m_(object.empty() ? 1 : kProbedShare * object.rounded_diagonal_m()) {}
 
 void DirectLight::set_samples(std::span<const LightSample> samples_tag, bool stands_still) {
   lattice_step_m_ = (stands_still ? 1 : kCoarser) * fine_step_m_;
@@ -110,62 +113,68 @@ const std::vector<glm::vec3>& DirectLight::at_vertices_over_pi() {
   return at_vertices_over_pi_;
 }
 
-/// Steps of a triangle whose corners see different samples; 0 for others.
-std::uint16_t DirectLight::lattice_steps(std::uint32_t triangle) const {
+float DirectLight::longest_edge_m(std::uint32_t triangle) const {
   const std::uint32_t* corner = &mesh_.indices[3 * static_cast<std::size_t>(triangle)];
-  const auto& seen = vertices_[corner[0]].seen;
-  if (seen == vertices_[corner[1]].seen && seen == vertices_[corner[2]].seen) return 0;
   const auto place = [&](int k) { return mesh_.vertices[corner[k]].position_m; };
-  const float longest_m =
-      std::max({glm::distance(place(0), place(1)), glm::distance(place(1), place(2)), glm::distance(place(2), place(0))});
-  const float steps = std::ceil(longest_m / lattice_step_m_);
-  return steps > 1 ? static_cast<std::uint16_t>(std::min(steps, float{kMaxLatticeSteps})) : std::uint16_t{0};
+  return std::max({glm::distance(place(0), place(1)), glm::distance(place(1), place(2)), glm::distance(place(2), place(0))});
 }
 
-/// Only of the samples that the corners do not agree on it is asked which are seen.
-void DirectLight::fill_lattice(std::uint32_t triangle) {
-  const Lattice& lattice = lattices_[triangle];
+DirectLightNode DirectLight::node_in(std::uint32_t triangle, const glm::vec2& weights, const Bits& seen,
+                                     const Bits& unknown) const {
   const std::uint32_t* corner = &mesh_.indices[3 * static_cast<std::size_t>(triangle)];
-  Bits seen, unknown;
-  for (std::size_t word = 0; word < 2; ++word) {
-    const std::uint64_t a = vertices_[corner[0]].seen[word], b = vertices_[corner[1]].seen[word],
-                        c = vertices_[corner[2]].seen[word];
-    seen[word] = a & b & c;
-    unknown[word] = (a | b | c) & ~seen[word];
-  }
   const Vertex &a = mesh_.vertices[corner[0]], &b = mesh_.vertices[corner[1]], &c = mesh_.vertices[corner[2]];
+  const glm::vec3 w(1 - weights.x - weights.y, weights);
+  return node_at(w.x * a.position_m + w.y * b.position_m + w.z * c.position_m,
+                 unit(w.x * a.normal + w.y * b.normal + w.z * c.normal), seen, unknown);
+}
+
+/// What the triangle's corners see, and, if it is large, some places between them.
+void DirectLight::look_at(Known& known) const {
+  const auto add = [&](const Bits& seen) {
+    for (std::size_t word = 0; word < 2; ++word) known.every[word] &= seen[word], known.any[word] |= seen[word];
+  };
+  known.every = known.any = vertices_[mesh_.indices[3 * static_cast<std::size_t>(known.triangle)]].seen;
+  for (std::size_t k = 1; k < 3; ++k) add(vertices_[mesh_.indices[3 * static_cast<std::size_t>(known.triangle) + k]].seen);
+  if (longest_edge_m(known.triangle) <= probed_edge_m_) return;
+  for (const glm::vec2& probe : {glm::vec2(0.5f, 0), glm::vec2(0, 0.5f), glm::vec2(0.5f, 0.5f), glm::vec2(1.0f / 3, 1.0f / 3)})
+    add(node_in(known.triangle, probe, {}, bits_of(samples_.size())).seen);
+}
+
+/// Only of the samples that corners and probes do not agree on it is asked which are seen.
+void DirectLight::fill_lattice(const Known& known) {
+  const Lattice& lattice = lattices_[known.triangle];
+  Bits unknown;
+  for (std::size_t word = 0; word < 2; ++word) unknown[word] = known.any[word] & ~known.every[word];
   const std::size_t steps = lattice.steps;
-  for (std::size_t up = 0; up <= steps; ++up) {
-    for (std::size_t across = 0; across + up <= steps; ++across) {
-      const glm::vec2 share = glm::vec2(across, up) / static_cast<float>(steps);
-      const glm::vec3 w(1 - share.x - share.y, share);
+  for (std::size_t up = 0; up <= steps; ++up)
+    for (std::size_t across = 0; across + up <= steps; ++across)
       lattice_nodes_[lattice.first_node + lattice_index(steps, across, up)] =
-          node_at(w.x * a.position_m + w.y * b.position_m + w.z * c.position_m,
-                  unit(w.x * a.normal + w.y * b.normal + w.z * c.normal), seen, unknown);
-    }
-  }
+          node_in(known.triangle, glm::vec2(across, up) / static_cast<float>(steps), known.every, unknown);
 }
 
 void DirectLight::prepare(std::span<const SurfacePoint> points) {
   if (samples_.empty()) return;
-  std::vector<std::uint32_t> triangles, vertices;
+  std::vector<Known> triangles;
+  std::vector<std::uint32_t> vertices;
   for (const SurfacePoint& point : points) {
     if (std::exchange(lattices_[point.triangle].is_known, true)) continue;
-    triangles.push_back(point.triangle);
+    triangles.push_back({point.triangle});
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t vertex = mesh_.indices[3 * static_cast<std::size_t>(point.triangle) + k];
       if (!std::exchange(is_vertex_known_[vertex], 1)) vertices.push_back(vertex);
     }
   }
   find_vertices(vertices);
+  parallel_for(triangles.size(), 0, [&](std::size_t i) { look_at(triangles[i]); });
+  std::erase_if(triangles, [](const Known& known) { return known.any == known.every; });
   std::size_t nodes = lattice_nodes_.size();
-  for (const std::uint32_t triangle : triangles) {
-    Lattice& lattice = lattices_[triangle];
-    lattice.steps = lattice_steps(triangle);
+  for (const Known& known : triangles) {
+    Lattice& lattice = lattices_[known.triangle];
+    const float steps = std::ceil(longest_edge_m(known.triangle) / lattice_step_m_);
+    lattice.steps = static_cast<std::uint16_t>(std::clamp(steps, 1.0f, float{kMaxLatticeSteps}));
     lattice.first_node = static_cast<std::uint32_t>(nodes);
-    if (lattice.steps > 0) nodes += lattice_nodes(lattice.steps);
+    nodes += lattice_nodes(lattice.steps);
   }
-  std::erase_if(triangles, [&](std::uint32_t triangle) { return lattices_[triangle].steps == 0; });
   lattice_nodes_.resize(nodes);
   parallel_for(triangles.size(), 0, [&](std::size_t i) { fill_lattice(triangles[i]); });
 }
@@ -192,18 +201,19 @@ DirectLight::Corners DirectLight::corners_at(const SurfacePoint& point) const {
 
 glm::vec3 DirectLight::irradiance(const SurfacePoint& point, float* shares) const {
   if (samples_.empty()) return glm::vec3(0);
-  if (point.is_back) {  // what is kept is for the front
+  const auto [nodes, weights] = corners_at(point);
+  // What lies inside would put a dark rim along the line where parts go through each other.
+  glm::vec3 w = weights;
+  for (int k = 0; k < 3; ++k)
+    if (nodes[k]->is_inside) w[k] = 0;
+  const float sum = w.x + w.y + w.z;
+  constexpr float kEnough = 0.1f;
+  if (point.is_back || sum < kEnough) {  // what is kept is for the front, and for what is outside
     const DirectLightNode node = node_at(point.position_m, point.normal, {}, bits_of(samples_.size()));
     for (std::size_t i = 0; shares && i < samples_.size(); ++i) shares[i] = node.sees(i) ? 1 : 0;
     return node.irradiance;
   }
-  auto [nodes, w] = corners_at(point);
-  // What lies inside would put a dark rim along the line where parts go through each other.
-  glm::vec3 open = w;
-  for (int k = 0; k < 3; ++k)
-    if (nodes[k]->is_inside) open[k] = 0;
-  const float sum = open.x + open.y + open.z;
-  if (sum > 0.1f) w = open / sum;
+  w /= sum;
   for (std::size_t i = 0; shares && i < samples_.size(); ++i)
     shares[i] = (nodes[0]->sees(i) ? w.x : 0) + (nodes[1]->sees(i) ? w.y : 0) + (nodes[2]->sees(i) ? w.z : 0);
   return w.x * nodes[0]->irradiance + w.y * nodes[1]->irradiance + w.z * nodes[2]->irradiance;

@@ -59,14 +59,21 @@ class DirectLight {
   };
 
   DirectLightNode node_at(const glm::vec3& position_m, const glm::vec3& normal, const Bits& seen, const Bits& unknown) const;
+  /// What is known of a triangle's light before its lattice is made.
+  struct Known {
+    std::uint32_t triangle = 0;
+    Bits every{}, any{};  ///< samples that each of its corners and probes sees, or one of them
+  };
   void find_vertices(std::span<const std::uint32_t> wanted);
-  std::uint16_t lattice_steps(std::uint32_t triangle) const;
-  void fill_lattice(std::uint32_t triangle);
+  void look_at(Known& known) const;
+  float longest_edge_m(std::uint32_t triangle) const;
+  DirectLightNode node_in(std::uint32_t triangle, const glm::vec2& weights, const Bits& seen, const Bits& unknown) const;
+  void fill_lattice(const Known& known);
   Corners corners_at(const SurfacePoint& point) const;
 
   const Mesh& mesh_;
   const RayScene& rays_;
-  float lift_m_, fine_step_m_, lattice_step_m_;
+  float lift_m_, fine_step_m_, lattice_step_m_, probed_edge_m_;
   std::vector<LightSample> samples_;
   std::vector<DirectLightNode> vertices_, lattice_nodes_;
   std::vector<char> is_vertex_known_;

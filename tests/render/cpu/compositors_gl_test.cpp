@@ -113,6 +113,24 @@ TEST_F(CompositorsGl, VarnishThatMirrorsTheTable) {
   }
 }
 
+// Rougher metal also shows light that grazes it, from behind the ball: there shadow maps darken their own surface.
+TEST_F(CompositorsGl, HighlightsOfLampsOnMetal) {
+  for (const float roughness : {0.15f, 0.35f}) {
+    SCOPED_TRACE(roughness);
+    Shot shot;
+    shot.scene = ball(material_of(glm::vec3(0.9f, 0.6f, 0.3f), 1, roughness, 0.04f));
+    const int bands = shot.scene.transfer.bands;
+    shot.scene.transfer.object_direct = shot.scene.transfer.object;
+    for (int i = 0; i < 12; ++i)
+      shot.scene.lights.push_back(
+          {glm::normalize(glm::dvec3(0.3 + 0.02 * (i % 4), 0.2 + 0.02 * (i / 4), 0.8)), glm::dvec3(0.2), 0.01});
+    const ShRgb of_lights = project_to_sh(shot.scene.lights, bands);
+    for (std::size_t i = 0; i < of_lights.size(); ++i) shot.scene.light[i] += of_lights[i];
+    shot.scene.rest_reflections = shot.scene.reflections;
+    expect_one_picture(shot);
+  }
+}
+
 TEST_F(CompositorsGl, EmissiveAndUnlitMaterials) {
   Shot shot;
   Material material = material_of({0.2f, 0.2f, 0.2f}, 0, 1, 0);
