@@ -3,8 +3,8 @@
 
 #include "catchlight/pixel_rect.hpp"
 #include "catchlight/plate.hpp"
-#include "render/gl_compositor.hpp"
 #include "render/frame_view.hpp"
+#include "render/gl_compositor.hpp"
 #include "render/render_scene.hpp"
 #include "tests/support/gl_fixture.hpp"
 
