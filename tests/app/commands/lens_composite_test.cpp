@@ -232,7 +232,7 @@ class LensOnTheResult : public ::testing::Test {
   Grain grain(const glm::dvec2& middle_m, const cv::Size& tiles) const {
     Grain grain;
     for (std::size_t i = 0; i < result_.size(); ++i) {
-      const glm::ivec2 middle(glm::round(seen_px(middle_m, shifts_[i])));
+      const glm::ivec2 middle(glm::round(seen_px(middle_m, shifts_[i % shifts_.size()])));
       for (int y = 0; y < tiles.height; ++y)
         for (int x = 0; x < tiles.width; ++x)
           grain.add(result_[i](cv::Rect(middle.x + 8 * x - 4 * tiles.width, middle.y + 8 * y - 4 * tiles.height, 8, 8)));
@@ -279,7 +279,9 @@ TEST_F(LensOnTheResult, NoiseOfCodedVideoIsTheSheets) {
   const Sheet sheet(0.6);
   for (int i = 0; i < 8; ++i) add_frame(sheet.at({3 * i, i}), kNoise, {3 * i, i});
   encode("-vf scale=out_color_matrix=bt709:out_range=tv -colorspace bt709 -color_range tv -pix_fmt yuv420p -c:v libx264 -crf 14");
-  overlay();
+  // Codes of limited range lie 1.16 codes of the picture apart: at other exposures the slab's light falls between other ones,
+  // which makes 3 % of its noise.
+  for (const char* ev : {"0", "0.007", "0.014"}) overlay({"-y", "--exposure.ev", ev});
   expect_the_sheets_grain();
 }
 
