@@ -142,7 +142,7 @@ struct SceneSettings {
   } quality;
 
   Renderer renderer = Renderer::automatic;  ///< the command line's --renderer, not a key of the file
-  std::string folder;             ///< paths of files above that are relative start here; empty: the working folder
+  std::string folder;                       ///< paths of files above that are relative start here; empty: the working folder
   std::string shader_folder;      ///< instead of the embedded shaders; the command line's --shader-dir, not a key of the file
   std::set<std::string> by_hand;  ///< keys that the scene file or the command line gave
 

@@ -1,10 +1,10 @@
 // Shaders: what C++ and GLSL must agree on, and what a broken one says.
 #include "catchlight/error.hpp"
 #include "embedded/embedded_shaders.hpp"
-#include "render/gl_compositor.hpp"
 #include "render/gl/fullscreen.hpp"
 #include "render/gl/gl_context.hpp"
 #include "render/gl/shader_library.hpp"
+#include "render/gl_compositor.hpp"
 #include "render/settings.hpp"
 #include "shaders/interface.h"
 #include "tests/support/gl_fixture.hpp"
