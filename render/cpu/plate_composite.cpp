@@ -17,6 +17,8 @@ namespace catchlight::render {
 namespace {
 
 constexpr int kRowsAtOnce = 8;
+/// Light that moves no code of 8 bits by a quarter, however dark the plate is.
+constexpr float kInvisibleGlare = 5e-5f;
 
 /// The smallest difference of codes that counts: a quarter of a code of 8 bits, or of 12 where there may be more.
 float changed_code(Plate::Format format) {
@@ -68,6 +70,10 @@ class NoiseRow {
   std::array<Float4, 3> mix_;
   Float4 slope_, floor_;
 };
+
+bool is_below(Float4 light, float most) {
+  return light[0] < most && light[1] < most && light[2] < most;
+}
 
 struct Pixel {
   Float4 code{}, background{};
@@ -121,6 +127,7 @@ class PlateComposite {
       if (virtual_.object) pixel.object = load(virtual_.object->pixel(u, v));
       if (virtual_.shadow) pixel.ratio = load(virtual_.shadow->pixel(u, v));
     }
+    if (is_below(pixel.glare, kInvisibleGlare)) pixel.glare = Float4{};
     const bool no_shadow = is_no_shadow(rgb(pixel.ratio));
     if (no_shadow) pixel.ratio = splat(1);
     pixel.is_touched = pixel.object[3] > 0 || !no_shadow || pixel.glare[0] != 0 || pixel.glare[1] != 0 || pixel.glare[2] != 0;
@@ -131,12 +138,12 @@ class PlateComposite {
     return pixel;
   }
 
-  /// A shadow that takes less than a 30th of the light leaves 96 % of the noise's variance: nobody sees what is missing.
+  /// A shadow or a glare of less than a 30th of the light leaves 96 % of the noise's variance: nobody sees what is missing.
   static bool lacks_noise(const Pixel& pixel) {
     constexpr float kFaint = 1.0f / 30;
-    const Float4& r = pixel.ratio;
-    return pixel.object[3] > 0 || pixel.glare[0] > 0 || pixel.glare[1] > 0 || pixel.glare[2] > 0 || std::abs(r[0] - 1) > kFaint ||
-           std::abs(r[1] - 1) > kFaint || std::abs(r[2] - 1) > kFaint;
+    const Float4 change = pixel.ratio - splat(1), most = splat(kFaint);
+    const auto is_faint = (change < most) & (-change < most) & (pixel.glare <= most * pixel.background);
+    return pixel.object[3] > 0 || (is_faint[0] & is_faint[1] & is_faint[2]) == 0;
   }
 
   void put(int x, int y, const Pixel& pixel, const NoiseRow* noise, float* out) const {
