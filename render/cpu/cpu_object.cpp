@@ -86,7 +86,9 @@ CpuObject::Shaded CpuObject::shade(const SurfacePoint& point, const glm::vec3& m
 /// Shades the points into their pixels. A pixel's points are shaded one after the other, on one thread.
 void CpuObject::put(const FrameView& view, const FramePlan& plan, const VisibleSurface& surface,
                     std::span<const glm::vec3> mirrored, ObjectImages& images) const {
-  const auto& [rect, points, firsts] = surface;
+  const PixelRect& rect = surface.rect;
+  const std::vector<SurfacePoint>& points = surface.points;
+  const std::vector<std::int32_t>& firsts = surface.first;
   const glm::mat3 camera_from_tag(view.camera_from_tag.rotation);
   parallel_for((firsts.size() + kPointsAtOnce - 1) / kPointsAtOnce, 0, [&](std::size_t chunk) {
     for (std::size_t pixel = chunk * kPointsAtOnce; pixel < std::min((chunk + 1) * kPointsAtOnce, firsts.size()); ++pixel) {

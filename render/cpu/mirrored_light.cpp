@@ -141,7 +141,9 @@ void MirroredLight::find_mirror_directions(const Frame& frame) {
 
 /// How the mirror direction changes from pixel to pixel.
 void MirroredLight::find_footprints(const Frame& frame, std::size_t index) {
-  const auto& [rect, points, firsts] = frame.surface;
+  const PixelRect& rect = frame.surface.rect;
+  const std::vector<SurfacePoint>& points = frame.surface.points;
+  const std::vector<std::int32_t>& firsts = frame.surface.first;
   const SurfacePoint& point = points[index];
   const int x = static_cast<int>(point.pixel) % rect.width, y = static_cast<int>(point.pixel) / rect.width;
   const auto change = [&](int dx, int dy) -> glm::vec3 {
@@ -161,7 +163,9 @@ void MirroredLight::find_footprints(const Frame& frame, std::size_t index) {
 
 /// A ray of each pixel tells where the object may be mirrored at all: the rest is traced there and around.
 void MirroredLight::look_for_object(const Frame& frame) {
-  const auto& [rect, points, firsts] = frame.surface;
+  const PixelRect& rect = frame.surface.rect;
+  const std::vector<SurfacePoint>& points = frame.surface.points;
+  const std::vector<std::int32_t>& firsts = frame.surface.first;
   hit_.assign(firsts.size(), 0);
   near_hit_.assign(firsts.size(), 0);
   for_chunks(points.size(), [&](std::size_t first, std::size_t last) {
@@ -229,7 +233,9 @@ void MirroredLight::trace(const Frame& frame, std::size_t first, std::size_t las
 
 /// What the point's rays and those of its neighbours find.
 MirroredLight::Sum MirroredLight::sum_around(const Frame& frame, std::size_t index, int sharers) const {
-  const auto& [rect, points, firsts] = frame.surface;
+  const PixelRect& rect = frame.surface.rect;
+  const std::vector<SurfacePoint>& points = frame.surface.points;
+  const std::vector<std::int32_t>& firsts = frame.surface.first;
   const SurfacePoint& point = points[index];
   const auto& says = sharers == 8 ? kSaysOf8 : sharers == 4 ? kSaysOf4 : kSaysOf2;
   const float roughness = materials_.materials[point.material].emissive_roughness.w;
@@ -252,7 +258,7 @@ MirroredLight::Sum MirroredLight::sum_around(const Frame& frame, std::size_t ind
 
 /// The lobe's mean, by the point's rays and those of neighbours with much the same mirror direction.
 glm::vec3 MirroredLight::shared(const Frame& frame, std::size_t index) const {
-  const auto& [rect, points, firsts] = frame.surface;
+  const std::vector<SurfacePoint>& points = frame.surface.points;
   const SurfacePoint& point = points[index];
   const auto& m = materials_.materials[point.material];
   const int sharers = sharers_of(frame, index);

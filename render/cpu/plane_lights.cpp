@@ -100,6 +100,7 @@ PlaneLights plane_lights(std::span<const LightSample> samples_tag, const RayScen
   std::vector<Bits> at_nodes(static_cast<std::size_t>(nodes.x) * nodes.y);
   parallel_for(static_cast<std::size_t>(nodes.y), 0, [&](std::size_t row) {
     std::vector<glm::vec2> places;
+    places.reserve(static_cast<std::size_t>(nodes.x));
     for (int x = 0; x < nodes.x; ++x) places.push_back(place(kCell * x, kCell * static_cast<int>(row)));
     plane.find_seen(places, plane.all(), std::span(at_nodes).subspan(row * nodes.x, nodes.x));
   });

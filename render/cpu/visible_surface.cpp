@@ -25,6 +25,7 @@ std::vector<glm::vec2> sample_pattern(int count) {
   if (count == 1) return {{0, 0}};
   if (count == 4) return {{-0.125f, -0.375f}, {0.375f, -0.125f}, {-0.375f, 0.125f}, {0.125f, 0.375f}};
   std::vector<glm::vec2> result;
+  result.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i)
     result.push_back(glm::fract(glm::vec2((static_cast<float>(i) + 0.5f) / static_cast<float>(count),
                                           0.5f + 0.6180339887f * static_cast<float>(i))) -
