@@ -107,7 +107,10 @@ void add_recording_options(CLI::App& command, const Context& context, std::strin
 void add_renderer_options(CLI::App& command, RecordingOverrides& overrides, bool* both_draw) {
   std::vector<std::string> choices = name_list<Renderer>();
   std::string help = "What draws: the processor, OpenGL, or whichever is faster: OpenGL where there is a graphics card";
-  if (both_draw != nullptr) choices.push_back(kBoth), help += "; both: each frame is drawn by both, and the pictures are compared";
+  if (both_draw != nullptr) {
+    choices.emplace_back(kBoth);
+    help += "; both: each frame is drawn by both, and the pictures are compared";
+  }
   command
       .add_option_function<std::string>(
           "--renderer",
