@@ -27,9 +27,9 @@ constexpr Command kCommands[] = {
 /// by page for the next one.
 void keep_freed_memory() {
 #ifdef __GLIBC__
-  constexpr int kMost = 256 << 20;
-  mallopt(M_MMAP_THRESHOLD, kMost);
-  mallopt(M_TRIM_THRESHOLD, kMost);
+  constexpr int kMaxKept_bytes = 256 << 20;
+  mallopt(M_MMAP_THRESHOLD, kMaxKept_bytes);
+  mallopt(M_TRIM_THRESHOLD, kMaxKept_bytes);
 #endif
 }
 

@@ -5,7 +5,7 @@
 
 #include "catchlight/util/parallel.hpp"
 #include "render/camera/clip_from_camera.hpp"
-#include "render/cpu/transferred_light.hpp"
+#include "render/cpu/surface/transferred_light.hpp"
 #include "shaders/shading.h"
 
 namespace catchlight::render {

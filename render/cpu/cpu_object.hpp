@@ -5,12 +5,12 @@
 #include <optional>
 
 #include "catchlight/image.hpp"
-#include "render/cpu/direct_light.hpp"
-#include "render/cpu/highlights.hpp"
-#include "render/cpu/mirrored_light.hpp"
-#include "render/cpu/plate_light.hpp"
-#include "render/cpu/receiver_shadow.hpp"
-#include "render/cpu/visible_surface.hpp"
+#include "render/cpu/mirror/mirrored_light.hpp"
+#include "render/cpu/plate/plate_light.hpp"
+#include "render/cpu/receiver/receiver_shadow.hpp"
+#include "render/cpu/surface/direct_light.hpp"
+#include "render/cpu/surface/highlights.hpp"
+#include "render/cpu/surface/visible_surface.hpp"
 #include "render/frame_plan.hpp"
 #include "render/render_scene.hpp"
 

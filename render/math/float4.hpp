@@ -1,6 +1,8 @@
 // Four floats that the compiler keeps in one register: a texel, a pixel.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <glm/glm.hpp>
 
@@ -44,6 +46,16 @@ inline Float4 float4(const glm::vec3& v, float w = 0) {
 
 inline glm::vec3 rgb(Float4 v) {
   return {v[0], v[1], v[2]};
+}
+
+/// Mixes what look_up(number) gives for the two of `count` levels around `level`, which is clamped to those there are.
+template <typename LookUp>
+Float4 between_levels(float level, std::size_t count, const LookUp& look_up) {
+  const float at = std::clamp(level, 0.0f, static_cast<float>(count - 1));
+  const auto finer = static_cast<std::size_t>(at);
+  const float share = at - static_cast<float>(finer);
+  const Float4 fine = look_up(finer);
+  return share > 0 ? blend(fine, look_up(finer + 1), share) : fine;
 }
 
 }  // namespace catchlight::render

@@ -60,7 +60,7 @@ struct SinCos {
   float sin, cos;
 };
 
-// Of an angle in turns, from 0 to 1: Taylor's series over an eighth of a turn, whose rest is below the rounding.
+// Sine and cosine of an angle in turns, from 0 to 1: Taylor's series over an eighth of a turn, whose rest is below the rounding.
 [[gnu::always_inline]] inline SinCos sin_cos_of_turn(float turn) {
   const int quarter = static_cast<int>(turn * 4 + 0.5f);
   const float angle = (turn - static_cast<float>(quarter) * 0.25f) * (2 * std::numbers::pi_v<float>), square = angle * angle;

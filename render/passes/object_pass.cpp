@@ -22,7 +22,7 @@ std::vector<std::size_t> triangles_by_material(const Mesh& mesh) {
   return order;
 }
 
-/// Of how many triangles the lights are kept: of those whose records fit into one storage block (128 MiB in Mesa).
+/// The number of triangles whose lights are kept: those whose records fit into one storage block (128 MiB in Mesa).
 int most_kept(const Mesh& mesh) {
   GLint limit = 0;
   glGetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);

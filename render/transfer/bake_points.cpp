@@ -11,7 +11,7 @@ namespace {
 // pixel.
 constexpr float kLift = 1e-5f;
 
-// Of a vertex that triangles of several materials share, the first one's.
+// A vertex that triangles of several materials share has the first one's.
 std::vector<glm::vec3> diffuse_albedos(const Mesh& mesh) {
   std::vector<glm::vec3> albedo(mesh.vertices.size(), glm::vec3(0));
   std::vector<bool> known(mesh.vertices.size());

@@ -63,7 +63,7 @@ AVPixelFormat rgb_format(bool deep, bool in_planes) {
 
 Plate integer_plate(const AVFrame& picture, const PixelLayout& layout, const PixelRect& rect) {
   const bool deep = layout.depth() > 8;
-  // Of YUV, swscale makes planes of RGB three times as fast as packed RGB, and the same codes.
+  // swscale makes planes of RGB out of YUV three times as fast as packed RGB, and the same codes.
   const bool in_planes = layout.model == ColorModel::yuv;
   const PixelRect part = padded(rect, layout, picture.width, picture.height);
   const FramePtr rgb = convert_part(picture, part, rgb_format(deep, in_planes));

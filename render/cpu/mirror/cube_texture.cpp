@@ -1,0 +1,88 @@
+#include "render/cpu/mirror/cube_texture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "catchlight/error.hpp"
+#include "render/probe/cube_map.hpp"
+
+namespace catchlight::render {
+namespace {
+
+constexpr int kFaces = 6;
+
+Float4 usable(const float* rgb) {
+  Float4 texel{};
+  for (int c = 0; c < 3; ++c) texel[c] = std::isfinite(rgb[c]) ? std::max(rgb[c], 0.0f) : 0.0f;
+  return texel;
+}
+
+}  // namespace
+
+/// A place on a face, from -1 to 1, right and down.
+struct CubeTexture::Place {
+  int face;
+  float s, t;
+
+  explicit Place(const glm::vec3& d) {
+    const glm::vec3 a = glm::abs(d);
+    if (a.x >= a.y && a.x >= a.z) {
+      const float scale = 1 / a.x;
+      face = d.x > 0 ? 0 : 1, s = (d.x > 0 ? -d.z : d.z) * scale, t = -d.y * scale;
+    } else if (a.y >= a.z) {
+      const float scale = 1 / a.y;
+      face = d.y > 0 ? 2 : 3, s = d.x * scale, t = (d.y > 0 ? d.z : -d.z) * scale;
+    } else {
+      const float scale = 1 / a.z;
+      face = d.z > 0 ? 4 : 5, s = (d.z > 0 ? d.x : -d.x) * scale, t = -d.y * scale;
+    }
+  }
+};
+
+CubeTexture::Level CubeTexture::make_level(const Image& faces) {
+  const int size = faces.width, stride = size + 2;
+  Level level{size, std::vector<Float4>(static_cast<std::size_t>(kFaces) * stride * stride)};
+  for (int face = 0; face < kFaces; ++face) {
+    for (int y = -1; y <= size; ++y) {
+      for (int x = -1; x <= size; ++x) {
+        int from_face = face, from_x = x, from_y = y;
+        if (x < 0 || y < 0 || x >= size || y >= size) {
+          const Place beyond(glm::vec3(cube_texel_direction(face, size, x, y)));
+          const auto texel = [&](float s) { return std::clamp(static_cast<int>((0.5f * s + 0.5f) * size), 0, size - 1); };
+          from_face = beyond.face, from_x = texel(beyond.s), from_y = texel(beyond.t);
+        }
+        const std::size_t at = (static_cast<std::size_t>(face) * stride + y + 1) * stride + x + 1;
+        level.texels[at] = usable(faces.pixel(from_x, from_face * size + from_y));
+      }
+    }
+  }
+  return level;
+}
+
+CubeTexture::CubeTexture(const ReflectionMap& map) {
+  for (const Image& level : map.levels) {
+    if (level.channels != 3 || level.width <= 0 || level.height != kFaces * level.width)
+      throw Error("a reflection level is " + std::to_string(level.width) + " x " + std::to_string(level.height) + " with " +
+                  std::to_string(level.channels) + " channels; six square RGB faces, one below the other, are needed");
+    levels_.push_back(make_level(level));
+  }
+  if (levels_.empty()) levels_.push_back(make_level(Image(1, kFaces)));
+}
+
+Float4 CubeTexture::bilinear(const Level& level, const Place& place) {
+  const float x = (0.5f * place.s + 0.5f) * static_cast<float>(level.size) + 0.5f;
+  const float y = (0.5f * place.t + 0.5f) * static_cast<float>(level.size) + 0.5f;
+  const int left = static_cast<int>(x), top = static_cast<int>(y), stride = level.size + 2;
+  const Float4* texel = &level.texels[(static_cast<std::size_t>(place.face) * stride + top) * stride + left];
+  const float across = x - static_cast<float>(left);
+  const Float4 upper = blend(texel[0], texel[1], across), lower = blend(texel[stride], texel[stride + 1], across);
+  return blend(upper, lower, y - static_cast<float>(top));
+}
+
+glm::vec3 CubeTexture::sample(const glm::vec3& direction, float level) const {
+  const Place place(direction);
+  return rgb(between_levels(level, levels_.size(), [&](std::size_t number) { return bilinear(levels_[number], place); }));
+}
+
+}  // namespace catchlight::render

@@ -1,0 +1,290 @@
+#include "render/cpu/mirror/mirrored_light.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "catchlight/util/parallel.hpp"
+#include "shaders/shading.h"
+
+namespace catchlight::render {
+namespace {
+
+/// A polished surface's lobe is as wide as the pixel's footprint: so many rays smooth what it shows.
+constexpr int kPolishedRays = 4;
+constexpr std::size_t kPointsAtOnce = 256;
+
+/// Neighbours share rays where their mirror directions differ by less than so many alphas, and they lie as deep to this share.
+/// Two take half of a lobe each, whose patterns would show side by side: they share farther.
+constexpr float kSharedTurn = 1, kSharedTurnOf2 = 3, kSharedDepth = 0.04f;
+/// A pixel's footprint in shares of alpha, up to which 8 and 4 pixels share a lobe's rays; beyond, 2 do.
+constexpr float kFootprintOf8 = 0.25f, kFootprintOf4 = 0.5f;
+/// How much what neighbours find counts, so that each ray of a lobe has the same say wherever its 8, 4 or 2 sharers lie.
+constexpr float kSaysOf8[3][5] = {{1, 2, 2, 2, 1}, {2, 4, 4, 4, 2}, {1, 2, 2, 2, 1}};
+constexpr float kSaysOf4[3][5] = {{0, 1, 2, 1, 0}, {0, 2, 4, 2, 0}, {0, 1, 2, 1, 0}};
+constexpr float kSaysOf2[3][5] = {{0, 0, 1, 0, 0}, {0, 1, 4, 1, 0}, {0, 0, 1, 0, 0}};
+/// Beyond this change from pixel to pixel, the neighbour is another surface.
+constexpr float kMaxFootprint = 0.5f;
+
+template <typename Work>
+void for_chunks(std::size_t count, const Work& work) {
+  parallel_for((count + kPointsAtOnce - 1) / kPointsAtOnce, 0,
+               [&](std::size_t chunk) { work(chunk * kPointsAtOnce, std::min((chunk + 1) * kPointsAtOnce, count)); });
+}
+
+}  // namespace
+
+/// A point's lobe, in so many directions.
+struct MirroredLight::Lobe {
+  glm::vec3 to_viewer, normal, viewer_local, footprint_x, footprint_y;
+  glm::mat3 frame;
+  float alpha, share, spread;
+  std::span<const LobePoint> points;
+
+  struct Direction {
+    glm::vec3 direction;
+    float weight;  ///< 0: below the surface
+  };
+
+  Direction at(int i) const {
+    const auto& [u, disc] = points[static_cast<std::size_t>(i)];
+    const glm::vec3 facet = alpha > 0 ? frame * shading::visible_normal(viewer_local, alpha, disc) : normal;
+    const glm::vec3 direction = glm::reflect(-to_viewer, facet) + (u.x - 0.5f) * footprint_x + (u.y - 0.5f) * footprint_y;
+    const float above = glm::dot(direction, normal);
+    return {glm::normalize(direction), above > 0 ? shading::lobe_weight(above, alpha) : 0};
+  }
+};
+
+MirroredLight::MirroredLight(const SurfaceMaterials& materials, const MirrorRays& rays, int lobe_rays)
+    : materials_(materials), rays_(rays), lobe_rays_(lobe_rays) {
+  const auto points_of = [](int count) {
+    std::vector<LobePoint> points;
+    for (int i = 0; i < count; ++i) {
+      const glm::vec2 square = shading::hammersley(i, count);
+      points.push_back({square, shading::disc_point(square)});
+    }
+    return points;
+  };
+  rough_points_ = points_of(std::max(lobe_rays, 1));
+  polished_points_ = points_of(kPolishedRays);
+  single_point_ = points_of(1);
+}
+
+bool MirroredLight::mirrors(const SurfacePoint& point) const {
+  const auto& m = materials_.materials[point.material];
+  return m.base_color_metallic.w > 0 || m.dielectric.x > 0;
+}
+
+bool MirroredLight::is_rough(const SurfacePoint& point) const {
+  return materials_.materials[point.material].emissive_roughness.w >= shading::kMinHighlightRoughness;
+}
+
+/// Rays of the point's whole lobe, its own and its neighbours'.
+int MirroredLight::rays_of(const SurfacePoint& point) const {
+  if (is_rough(point)) return std::max(lobe_rays_, 1);
+  return point.coverage < 1 ? 1 : kPolishedRays;  // the outline's samples are the rays
+}
+
+/// How many pixels share a lobe's rays. The parts of an outline's pixel share with nobody, and take half of the rays.
+int MirroredLight::sharers_of(const Frame& frame, std::size_t index) const {
+  const SurfacePoint& point = frame.surface.points[index];
+  if (!is_rough(point) || lobe_rays_ == 0) return 1;
+  if (point.coverage < 1) return 2;
+  const float roughness = materials_.materials[point.material].emissive_roughness.w;
+  const float footprint = glm::length(footprint_x_[index]) + glm::length(footprint_y_[index]);
+  const float share = footprint / (roughness * roughness);
+  return share <= kFootprintOf8 ? 8 : share <= kFootprintOf4 ? 4 : 2;
+}
+
+MirroredLight::Lobe MirroredLight::lobe_of(const Frame& frame, std::size_t index) const {
+  const SurfacePoint& point = frame.surface.points[index];
+  const float roughness = materials_.materials[point.material].emissive_roughness.w;
+  Lobe lobe;
+  lobe.to_viewer = point.to_viewer, lobe.normal = point.normal;
+  lobe.footprint_x = footprint_x_[index], lobe.footprint_y = footprint_y_[index];
+  lobe.frame = shading::frame_around(point.normal);
+  lobe.viewer_local = point.to_viewer * lobe.frame;
+  // Without rays of its own the whole lobe is read from the prefiltered probe, in the mirror direction.
+  lobe.alpha = lobe_rays_ > 0 ? roughness * roughness : 0;
+  const int lobe_size = is_rough(point) ? rays_of(point) : kPolishedRays;
+  lobe.share = lobe_rays_ > 0 ? std::pow(static_cast<float>(lobe_size), -0.25f) * roughness : roughness;
+  lobe.spread = lobe.share * lobe.share + 0.25f * glm::length(lobe.footprint_x + lobe.footprint_y);
+  lobe.points = is_rough(point) ? rough_points_ : point.coverage < 1 ? single_point_ : polished_points_;
+  return lobe;
+}
+
+/// The numbers of the rays that are this point's. They are dealt out so that each pixel has rays all over the lobe.
+void MirroredLight::choose_rays(const Frame& frame, std::size_t index, std::vector<int>& chosen) const {
+  chosen.clear();
+  const SurfacePoint& point = frame.surface.points[index];
+  const int count = rays_of(point), sharers = std::min(sharers_of(frame, index), count);
+  const PixelRect& rect = frame.surface.rect;
+  const int x = rect.x + static_cast<int>(point.pixel) % rect.width, y = rect.y + static_cast<int>(point.pixel) / rect.width;
+  const int of2 = (x ^ y) & 1, of4 = (x & 1) | (y & 1) << 1, of8 = (x & 3) | (y & 1) << 2;
+  const int phase = sharers == 1 ? 0 : sharers == 2 ? of2 : sharers == 4 ? of4 : of8;
+  for (int first = 0; first < count; first += sharers) {
+    const int ray = first + (phase ^ (first / sharers)) % sharers;
+    if (ray < count) chosen.push_back(ray);
+  }
+}
+
+void MirroredLight::find_mirror_directions(const Frame& frame) {
+  const auto& points = frame.surface.points;
+  mirror_.resize(points.size()), footprint_x_.resize(points.size()), footprint_y_.resize(points.size());
+  for_chunks(points.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) mirror_[i] = glm::reflect(-points[i].to_viewer, points[i].normal);
+  });
+  for_chunks(points.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) find_footprints(frame, i);
+  });
+}
+
+/// How the mirror direction changes from pixel to pixel.
+void MirroredLight::find_footprints(const Frame& frame, std::size_t index) {
+  const PixelRect& rect = frame.surface.rect;
+  const std::vector<SurfacePoint>& points = frame.surface.points;
+  const std::vector<std::int32_t>& firsts = frame.surface.first;
+  const SurfacePoint& point = points[index];
+  const int x = static_cast<int>(point.pixel) % rect.width, y = static_cast<int>(point.pixel) / rect.width;
+  const auto change = [&](int dx, int dy) -> glm::vec3 {
+    for (const int way : {1, -1}) {
+      const int u = x + way * dx, v = y + way * dy;
+      if (u < 0 || v < 0 || u >= rect.width || v >= rect.height) continue;
+      const std::int32_t there = firsts[static_cast<std::size_t>(v) * rect.width + u];
+      if (there < 0 || points[there].material != point.material) continue;
+      const glm::vec3 step = static_cast<float>(way) * (mirror_[there] - mirror_[index]);
+      if (glm::dot(step, step) < kMaxFootprint * kMaxFootprint) return step;
+    }
+    return glm::vec3(0);
+  };
+  footprint_x_[index] = change(1, 0);
+  footprint_y_[index] = change(0, 1);
+}
+
+/// A ray of each pixel tells where the object may be mirrored at all: the rest is traced there and around.
+void MirroredLight::look_for_object(const Frame& frame) {
+  const PixelRect& rect = frame.surface.rect;
+  const std::vector<SurfacePoint>& points = frame.surface.points;
+  const std::vector<std::int32_t>& firsts = frame.surface.first;
+  hit_.assign(firsts.size(), 0);
+  near_hit_.assign(firsts.size(), 0);
+  for_chunks(points.size(), [&](std::size_t first, std::size_t last) {
+    thread_local std::vector<MirrorRay> rays;
+    thread_local std::vector<int> chosen;
+    thread_local std::vector<std::size_t> of;
+    rays.clear(), of.clear();
+    for (std::size_t i = first; i < last; ++i) {
+      if (!mirrors(points[i])) continue;
+      choose_rays(frame, i, chosen);
+      const Lobe lobe = lobe_of(frame, i);
+      rays.push_back({rays_.start(points[i].position_m, points[i].normal), lobe.at(chosen.front()).direction, 0, 0, 0});
+      of.push_back(points[i].pixel);
+    }
+    rays_.look(rays);
+    for (std::size_t k = 0; k < rays.size(); ++k)
+      if (rays[k].meets_object) hit_[of[k]] = 1;
+  });
+  constexpr int kAround = 2;
+  for (int y = 0; y < rect.height; ++y)
+    for (int x = 0; x < rect.width; ++x) {
+      if (!hit_[static_cast<std::size_t>(y) * rect.width + x]) continue;
+      const int left = std::max(x - kAround, 0), right = std::min(x + kAround, rect.width - 1);
+      for (int v = std::max(y - kAround, 0); v <= std::min(y + kAround, rect.height - 1); ++v)
+        std::fill(&near_hit_[static_cast<std::size_t>(v) * rect.width + left],
+                  &near_hit_[static_cast<std::size_t>(v) * rect.width + right] + 1, char{1});
+    }
+}
+
+/// Finds what the points' own rays see: the sum of their light, and of their weights.
+void MirroredLight::trace(const Frame& frame, std::size_t first, std::size_t last) {
+  thread_local std::vector<MirrorRay> rays;
+  thread_local std::vector<int> chosen;
+  thread_local std::vector<std::pair<std::size_t, float>> of;
+  rays.clear(), of.clear();
+  const auto add = [&](std::size_t index, float weight, const glm::vec3& radiance) {
+    sums_[index].light += weight * radiance;
+    sums_[index].weight += weight;
+  };
+  const auto around = [&](std::size_t index, const MirrorRay& ray) {
+    const bool with_lights = !(frame.has_highlights && is_rough(frame.surface.points[index]));
+    return frame.around.radiance(ray.origin_m, ray.direction, ray.spread, ray.roughness, with_lights);
+  };
+  for (std::size_t i = first; i < last; ++i) {
+    const SurfacePoint& point = frame.surface.points[i];
+    sums_[i] = {};
+    if (!mirrors(point)) continue;
+    choose_rays(frame, i, chosen);
+    const Lobe lobe = lobe_of(frame, i);
+    const bool may_hit = lobe_rays_ > 0 && near_hit_[point.pixel];
+    for (const int number : chosen) {
+      const auto [direction, weight] = lobe.at(number);
+      if (weight == 0) continue;
+      const MirrorRay ray{rays_.start(point.position_m, point.normal), direction, lobe.spread, lobe.share, number};
+      if (may_hit)
+        rays.push_back(ray), of.emplace_back(i, weight);
+      else
+        add(i, weight, around(i, ray));
+    }
+  }
+  rays_.trace(rays);
+  for (std::size_t k = 0; k < rays.size(); ++k)
+    add(of[k].first, of[k].second, rays[k].meets_object ? rays[k].radiance : around(of[k].first, rays[k]));
+}
+
+/// What the point's rays and those of its neighbours find.
+MirroredLight::Sum MirroredLight::sum_around(const Frame& frame, std::size_t index, int sharers) const {
+  const PixelRect& rect = frame.surface.rect;
+  const std::vector<SurfacePoint>& points = frame.surface.points;
+  const std::vector<std::int32_t>& firsts = frame.surface.first;
+  const SurfacePoint& point = points[index];
+  const auto& says = sharers == 8 ? kSaysOf8 : sharers == 4 ? kSaysOf4 : kSaysOf2;
+  const float roughness = materials_.materials[point.material].emissive_roughness.w;
+  const float reach = (sharers == 2 ? kSharedTurnOf2 : kSharedTurn) * roughness * roughness;
+  const int x = static_cast<int>(point.pixel) % rect.width, y = static_cast<int>(point.pixel) / rect.width;
+  Sum sum;
+  for (int v = std::max(y - 1, 0); v <= std::min(y + 1, rect.height - 1); ++v) {
+    for (int u = std::max(x - 2, 0); u <= std::min(x + 2, rect.width - 1); ++u) {
+      const float say = says[v - y + 1][u - x + 2];
+      const std::int32_t there = firsts[static_cast<std::size_t>(v) * rect.width + u];
+      if (say == 0 || there < 0 || points[there].material != point.material) continue;
+      const glm::vec3 turn = mirror_[there] - mirror_[index];
+      const float alike = say * (1 - glm::dot(turn, turn) / (reach * reach));
+      if (!(alike > 0) || std::abs(points[there].depth_m - point.depth_m) > kSharedDepth * point.depth_m) continue;
+      sum.light += alike * sums_[there].light, sum.weight += alike * sums_[there].weight;
+    }
+  }
+  return sum;
+}
+
+/// The lobe's mean, by the point's rays and those of neighbours with much the same mirror direction.
+glm::vec3 MirroredLight::shared(const Frame& frame, std::size_t index) const {
+  const std::vector<SurfacePoint>& points = frame.surface.points;
+  const SurfacePoint& point = points[index];
+  const auto& m = materials_.materials[point.material];
+  const int sharers = sharers_of(frame, index);
+  Sum sum;
+  if (sharers == 1 || point.coverage < 1) {
+    sum = sums_[index];
+  } else {
+    sum = sum_around(frame, index, sharers);
+  }
+  if (sum.weight > 0) return sum.light / sum.weight;
+  return frame.around.probe_radiance(mirror_[index], m.emissive_roughness.w, !(frame.has_highlights && is_rough(point)));
+}
+
+std::span<const glm::vec3> MirroredLight::find(const VisibleSurface& surface, const Surroundings& around, bool has_highlights) {
+  const Frame frame{surface, around, has_highlights};
+  result_.assign(surface.points.size(), glm::vec3(0));
+  if (!materials_.reflects) return result_;
+  find_mirror_directions(frame);
+  if (lobe_rays_ > 0) look_for_object(frame);
+  sums_.resize(surface.points.size());
+  for_chunks(surface.points.size(), [&](std::size_t first, std::size_t last) { trace(frame, first, last); });
+  for_chunks(surface.points.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      if (mirrors(surface.points[i])) result_[i] = shared(frame, i);
+  });
+  return result_;
+}
+
+}  // namespace catchlight::render

@@ -1,0 +1,65 @@
+// What the object's surfaces mirror, by rays over the lobe around the mirror direction. Neighbours on a surface that bends little
+// share a lobe's rays, and rays are traced only near where one of them meets the object: elsewhere the surroundings are looked
+// up.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "render/cpu/mirror/mirror_rays.hpp"
+#include "render/cpu/mirror/surroundings.hpp"
+#include "render/cpu/surface/visible_surface.hpp"
+#include "render/surface_material.hpp"
+
+namespace catchlight::render {
+
+class MirroredLight {
+ public:
+  /// Keeps references. `lobe_rays`: over the lobe of a rough surface; 0: the probe alone is mirrored.
+  MirroredLight(const SurfaceMaterials& materials, const MirrorRays& rays, int lobe_rays);
+
+  /// Mean radiance over each point's lobe, before what the surface keeps of it; 0 for points that mirror nothing.
+  /// `has_highlights`: lights are split off, which rough surfaces show as highlights: their lobes leave those out.
+  std::span<const glm::vec3> find(const VisibleSurface& surface, const Surroundings& around, bool has_highlights);
+
+ private:
+  struct Sum {
+    glm::vec3 light{0};
+    float weight = 0;
+  };
+  struct Frame {
+    const VisibleSurface& surface;
+    const Surroundings& around;
+    bool has_highlights;
+  };
+  struct Lobe;
+  /// A lobe's directions before the surface gives them their place.
+  struct LobePoint {
+    glm::vec2 square, disc;  ///< Hammersley's point in the unit square, and the same spread over the unit disc
+  };
+
+  bool mirrors(const SurfacePoint& point) const;
+  bool is_rough(const SurfacePoint& point) const;
+  int rays_of(const SurfacePoint& point) const;
+  int sharers_of(const Frame& frame, std::size_t index) const;
+  void choose_rays(const Frame& frame, std::size_t index, std::vector<int>& chosen) const;
+  Lobe lobe_of(const Frame& frame, std::size_t index) const;
+  void find_mirror_directions(const Frame& frame);
+  void find_footprints(const Frame& frame, std::size_t index);
+  void look_for_object(const Frame& frame);
+  void trace(const Frame& frame, std::size_t first, std::size_t last);
+  Sum sum_around(const Frame& frame, std::size_t index, int sharers) const;
+  glm::vec3 shared(const Frame& frame, std::size_t index) const;
+
+  const SurfaceMaterials& materials_;
+  const MirrorRays& rays_;
+  int lobe_rays_;
+  std::vector<LobePoint> rough_points_, polished_points_, single_point_;
+  std::vector<glm::vec3> mirror_, footprint_x_, footprint_y_;  ///< of each point
+  std::vector<char> hit_, near_hit_;  ///< a pixel each: whether its first ray, or a neighbour's, meets the object
+  std::vector<Sum> sums_;
+  std::vector<glm::vec3> result_;
+};
+
+}  // namespace catchlight::render

@@ -1,0 +1,79 @@
+// What of the object each pixel shows: found by rays, once a pixel and by several samples where its outline crosses the pixel.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "catchlight/pixel_rect.hpp"
+#include "render/cpu/surface/mesh_outline.hpp"
+#include "render/cpu/surface/pixel_rays.hpp"
+#include "render/frame_view.hpp"
+#include "render/rays/ray_scene.hpp"
+
+namespace catchlight::render {
+
+/// A piece of surface to be shaded once: a pixel's, or the part of one that some of its samples see. Tag frame.
+struct SurfacePoint {
+  glm::vec3 position_m{0};
+  glm::vec3 normal{0};     ///< length 1, towards the viewer
+  glm::vec3 to_viewer{0};  ///< length 1
+  glm::vec3 color{0};      ///< Vertex::color
+  glm::vec3 exit_radiance{0};
+  std::uint32_t triangle = 0;
+  glm::vec2 weights{0};     ///< barycentric weights of corners 1 and 2
+  float depth_m = 0;        ///< along the camera's z
+  float coverage = 1;       ///< share of the pixel's samples
+  std::uint32_t pixel = 0;  ///< row-major in VisibleSurface::rect
+  std::uint16_t material = 0;
+  bool is_back = false;  ///< seen from the side where the corners wind clockwise
+};
+
+struct VisibleSurface {
+  PixelRect rect;                    ///< pixels of the frame
+  std::vector<SurfacePoint> points;  ///< pixel after pixel
+  std::vector<std::int32_t> first;   ///< a pixel's first point; -1: it has none
+};
+
+class SurfaceFinder {
+ public:
+  /// `samples`: a pixel's where the outline crosses it. `is_polished`, a value a material: surfaces whose shading changes so much
+  /// with the normal that no two samples are shaded together. Keeps references.
+  SurfaceFinder(const Mesh& mesh, const RayScene& rays, int samples, std::vector<char> is_polished);
+
+  /// What the pixels of `rect` show. `exit_radiance`: a value a vertex.
+  const VisibleSurface& find(const FrameView& view, const DistortionLimit& limit, const PixelRays& pixel_rays,
+                             const PixelRect& rect, std::span<const glm::vec3> exit_radiance);
+
+ private:
+  struct Frame;
+  struct Hit {
+    std::uint32_t triangle = RayStream::kNothing;
+    glm::vec2 weights{0};
+    float depth_m = 0;
+    bool is_back = false;
+  };
+
+  void mark_outline(const Frame& frame);
+  void trace_band(const Frame& frame, int band);
+  void mark_steps(const Frame& frame, int band);
+  void put_band(const Frame& frame, int band, std::vector<SurfacePoint>& points) const;
+  void add_samples(const Frame& frame, int x, int y, std::vector<SurfacePoint>& points) const;
+  bool is_step(const Hit& a, const Hit& b) const;
+  static Hit hit_of(const RayStream& rays, std::size_t ray);
+  glm::vec3 normal_at(const Hit& hit) const;
+  SurfacePoint point_at(const Frame& frame, const Hit& hit) const;
+
+  const Mesh& mesh_;
+  const RayScene& rays_;
+  MeshOutline outline_;
+  std::vector<glm::vec2> sample_offsets_px_;
+  std::vector<char> is_polished_;
+  std::vector<char> is_outline_;  ///< a pixel of the rectangle each
+  std::vector<Hit> hits_;         ///< what each pixel's middle shows
+  std::vector<std::vector<SurfacePoint>> bands_;
+  VisibleSurface surface_;
+};
+
+}  // namespace catchlight::render
