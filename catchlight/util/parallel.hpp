@@ -7,9 +7,9 @@
 #include <exception>
 #include <mutex>
 #include <thread>
-#include <vector>
 
 #include "catchlight/progress.hpp"
+#include "catchlight/util/worker_pool.hpp"
 
 namespace catchlight {
 
@@ -35,11 +35,7 @@ void parallel_for(std::size_t count, int threads, const Work& work, const Progre
     }
   };
   const std::size_t wanted = threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
-  {
-    std::vector<std::jthread> helpers;
-    for (std::size_t i = 1; i < std::min(wanted, count); ++i) helpers.emplace_back(run, false);
-    run(true);
-  }
+  WorkerPool::shared().run(std::max<std::size_t>(std::min(wanted, count), 1) - 1, run);
   if (failure) std::rethrow_exception(failure);
   if (progress) progress(1.0);
 }
