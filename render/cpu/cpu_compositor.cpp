@@ -1,6 +1,7 @@
 #include "render/cpu/cpu_compositor.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <optional>
 
@@ -158,8 +159,17 @@ void CpuCompositor::Impl::draw_virtual_layer(const FrameView& view, const FrameP
 }
 
 void CpuCompositor::Impl::draw_composite(const FrameView& view, const FramePlan& plan, Composite& result) {
-  VirtualImages images_in_frame{plan.virtual_rect};
-  if (plan.draws_virtual()) images_in_frame.object = &images.color, images_in_frame.shadow = &shadow;
+  VirtualImages images_in_frame;
+  if (plan.draws_virtual()) {
+    images_in_frame.object = &images.color, images_in_frame.object_rect = plan.virtual_rect;
+    images_in_frame.shadow = [&](int x, int y, int count, const std::array<float*, 3>& ratio) {
+      for (int i = 0; i < count; ++i) {
+        const int u = x + i - plan.virtual_rect.x, v = y - plan.virtual_rect.y;
+        const bool inside = u >= 0 && v >= 0 && u < shadow.width && v < shadow.height;
+        for (std::size_t c = 0; c < 3; ++c) ratio[c][i] = inside ? shadow.pixel(u, v)[c] : 1;
+      }
+    };
+  }
   images_in_frame.passed_at_tag = plan.passed_at_tag;
   if (result.glare_drawn)
     images_in_frame.glare = [this](int x, int y, int count, float* rgb) { glare->read_row(x, y, count, rgb); };

@@ -1,6 +1,7 @@
 // Object, shadow and glare put into the plate in linear light (Debevec 1998; premultiplied over), then coded as the plate was.
 #pragma once
 
+#include <array>
 #include <functional>
 
 #include "catchlight/composite.hpp"
@@ -14,13 +15,16 @@ namespace catchlight::render {
 /// Gives the glare of `count` pixels of the frame from (x, y) on to the right: RGB, exposed linear.
 using GlareRow = std::function<void(int x, int y, int count, float* rgb)>;
 
-/// What is put into the plate: images of the frame's pixels of `rect`.
+/// Gives the ratio of shadowed to unshadowed light in the same way, a plane a channel: red, green, blue.
+using ShadowRow = std::function<void(int x, int y, int count, const std::array<float*, 3>& ratio)>;
+
+/// What is put into the plate.
 struct VirtualImages {
-  PixelRect rect;
-  const Image* object = nullptr;  ///< RGBA, premultiplied exposed linear; null: none
-  const Image* shadow = nullptr;  ///< ratio, in the first three of four channels; null: none
-  GlareRow glare = {};            ///< empty: none drawn
-  double passed_at_tag = 0;       ///< share of light that vignetting leaves at the tag, where exposure is matched; 0: unknown
+  const Image* object = nullptr;  ///< RGBA, premultiplied exposed linear: the frame's pixels of `object_rect`; null: none
+  PixelRect object_rect;
+  ShadowRow shadow = {};     ///< empty: none
+  GlareRow glare = {};       ///< empty: none drawn
+  double passed_at_tag = 0;  ///< share of light that vignetting leaves at the tag, where exposure is matched; 0: unknown
 };
 
 /// Composites the pixels of result.rect, which the plate holds, into result.rgba, and into result.layers where it has any.

@@ -1,8 +1,37 @@
 #include "render/cpu/plate/response_table.hpp"
 
+#include <bit>
 #include <cmath>
 
 namespace catchlight::render {
+namespace {
+
+// Steps that are even in the logarithm's sense: a float's exponent, and the first 8 bits of its fraction.
+constexpr std::uint32_t kFirstBits = std::bit_cast<std::uint32_t>(1.0f / 65536);
+constexpr std::uint32_t kLastBits = std::bit_cast<std::uint32_t>(16.0f);
+constexpr std::uint32_t kStepBits = 15;
+
+inline bool is_in_table(std::uint32_t bits) {
+  return bits - kFirstBits < kLastBits - kFirstBits;
+}
+
+/// Interpolates between the table's steps. Of light beyond them it only says that there is any.
+[[gnu::target_clones("avx2", "default")]] int interpolate(const float* __restrict table, const float* __restrict linear,
+                                                          int count, float* __restrict codes) {
+  int beyond = 0;
+  for (int i = 0; i < count; ++i) {
+    const auto bits = std::bit_cast<std::uint32_t>(linear[i]);
+    const bool is_in = is_in_table(bits);
+    beyond |= is_in ? 0 : 1;
+    const auto step = static_cast<std::int32_t>(is_in ? (bits - kFirstBits) >> kStepBits : 0);
+    const float share =
+        static_cast<float>(static_cast<std::int32_t>(bits & ((1u << kStepBits) - 1))) * (1.0f / (1u << kStepBits));
+    codes[i] = table[step] + share * (table[step + 1] - table[step]);
+  }
+  return beyond;
+}
+
+}  // namespace
 
 void ResponseTable::set(const CameraResponse& response, Plate::Format format) {
   if (response_ && response_->transfer == response.transfer && response_->curve == response.curve && format_ == format) return;
@@ -31,6 +60,40 @@ Float4 ResponseTable::linear_of_floats(const Plate& plate, std::size_t pixel) co
     light[c] = std::isfinite(value) ? value : 0;
   }
   return light;
+}
+
+template <typename Code>
+void ResponseTable::look_up(const Tables& tables, const Plate& plate, std::size_t first_pixel, int count, Planes& values) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    const auto code = triple<Code>(plate, first_pixel + i);
+    for (std::size_t c = 0; c < 3; ++c) values[c][i] = tables[c][code[c]];
+  }
+}
+
+void ResponseTable::read_codes(const Plate& plate, std::size_t first_pixel, int count, Planes& codes) const {
+  if (plate.format == Plate::Format::rgb_u8) return look_up<std::uint8_t>(codes_, plate, first_pixel, count, codes);
+  if (plate.format == Plate::Format::rgb_u16) return look_up<std::uint16_t>(codes_, plate, first_pixel, count, codes);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    const auto code = triple<float>(plate, first_pixel + i);
+    for (std::size_t c = 0; c < 3; ++c) codes[c][i] = code[c];
+  }
+}
+
+void ResponseTable::read_linear(const Plate& plate, std::size_t first_pixel, int count, Planes& linear) const {
+  if (plate.format == Plate::Format::rgb_u8) return look_up<std::uint8_t>(linear_, plate, first_pixel, count, linear);
+  if (plate.format == Plate::Format::rgb_u16) return look_up<std::uint16_t>(linear_, plate, first_pixel, count, linear);
+  for (int i = 0; i < count; ++i) {
+    const Float4 light = linear_of_floats(plate, first_pixel + static_cast<std::size_t>(i));
+    for (int c = 0; c < 3; ++c) linear[static_cast<std::size_t>(c)][static_cast<std::size_t>(i)] = light[c];
+  }
+}
+
+void ResponseTable::code(const Planes& linear, int channel, int count, Planes& codes) const {
+  const Plane& light = linear[static_cast<std::size_t>(channel)];
+  Plane& result = codes[static_cast<std::size_t>(channel)];
+  if (!inverse_.empty() && interpolate(inverse_.data(), light.data(), count, result.data()) == 0) return;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+    if (inverse_.empty() || !is_in_table(std::bit_cast<std::uint32_t>(light[i]))) result[i] = exact_code(light[i], channel);
 }
 
 float ResponseTable::exact_code(float linear, int channel) const {

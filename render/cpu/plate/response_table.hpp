@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "catchlight/plate.hpp"
+#include "render/cpu/plate/plate_block.hpp"
 #include "render/math/float4.hpp"
 
 namespace catchlight::render {
@@ -26,29 +26,14 @@ class ResponseTable {
     return linear_of_floats(plate, pixel);
   }
 
-  /// A pixel's codes, and 0.
-  Float4 codes(const Plate& plate, std::size_t pixel) const {
-    if (plate.format == Plate::Format::rgb_u8) return looked_up<std::uint8_t>(codes_, plate, pixel);
-    if (plate.format == Plate::Format::rgb_u16) return looked_up<std::uint16_t>(codes_, plate, pixel);
-    const auto code = triple<float>(plate, pixel);
-    return Float4{code[0], code[1], code[2], 0};
-  }
+  /// The codes of `count` pixels of a block, and their light.
+  void read_codes(const Plate& plate, std::size_t first_pixel, int count, Planes& codes) const;
+  void read_linear(const Plate& plate, std::size_t first_pixel, int count, Planes& linear) const;
 
-  /// The code of a light, to a 20 000th of a code's range between 0 and 16; exact beyond and for curves from tables.
-  float code(float linear, int channel) const {
-    const auto bits = std::bit_cast<std::uint32_t>(linear);
-    if (inverse_.empty() || bits - kFirstBits >= kLastBits - kFirstBits) return exact_code(linear, channel);
-    const std::uint32_t step = (bits - kFirstBits) >> kStepBits;
-    const float share = static_cast<float>(bits & ((1u << kStepBits) - 1)) * (1.0f / (1u << kStepBits));
-    return inverse_[step] + share * (inverse_[step + 1] - inverse_[step]);
-  }
+  /// The codes of a channel's light, to a 20 000th of a code's range between 0 and 16; exact beyond and for curves from tables.
+  void code(const Planes& linear, int channel, int count, Planes& codes) const;
 
  private:
-  // Steps that are even in the logarithm's sense: a float's exponent, and the first 8 bits of its fraction.
-  static constexpr std::uint32_t kFirstBits = std::bit_cast<std::uint32_t>(1.0f / 65536);
-  static constexpr std::uint32_t kLastBits = std::bit_cast<std::uint32_t>(16.0f);
-  static constexpr std::uint32_t kStepBits = 15;
-
   using Tables = std::array<std::vector<float>, 3>;
 
   template <typename Code>
@@ -64,6 +49,8 @@ class ResponseTable {
     return Float4{tables[0][code[0]], tables[1][code[1]], tables[2][code[2]], 0};
   }
 
+  template <typename Code>
+  static void look_up(const Tables& tables, const Plate& plate, std::size_t first_pixel, int count, Planes& values);
   Float4 linear_of_floats(const Plate& plate, std::size_t pixel) const;
   float exact_code(float linear, int channel) const;
 

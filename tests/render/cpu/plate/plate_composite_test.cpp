@@ -38,7 +38,11 @@ class PlateComposite : public ::testing::Test {
     result.rect = rect;
     ResponseTable response;
     response.set(view_.color, plate_.format);
-    VirtualImages images{kFrame, &object_, &shadow_};
+    VirtualImages images{&object_, kFrame};
+    images.shadow = [&](int x, int y, int count, const std::array<float*, 3>& ratio) {
+      for (int i = 0; i < count; ++i)
+        for (std::size_t c = 0; c < 3; ++c) ratio[c][i] = shadow_.pixel(x + i, y)[c];
+    };
     images.passed_at_tag = 1;
     images.glare = glare_;
     composite_plate(view_, plate_, response, images, as_light, result);
