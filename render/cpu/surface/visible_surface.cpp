@@ -61,16 +61,13 @@ SurfaceFinder::SurfaceFinder(const Mesh& mesh, const RayScene& rays, int samples
       sample_offsets_px_(sample_pattern(samples)),
       is_polished_(std::move(is_polished)) {}
 
-SurfaceFinder::Hit SurfaceFinder::hit_of(const RayStream& rays, std::size_t ray) {
-  return {rays.triangle[ray], {rays.u[ray], rays.v[ray]}, rays.far[ray], !rays.is_front_facing(ray)};
-}
-
-/// The interpolated normal, towards the viewer.
-glm::vec3 SurfaceFinder::normal_at(const Hit& hit) const {
+SurfaceFinder::Hit SurfaceFinder::hit_of(const RayStream& rays, std::size_t ray) const {
+  Hit hit{rays.triangle[ray], {rays.u[ray], rays.v[ray]}, rays.far[ray], !rays.is_front_facing(ray)};
   const std::uint32_t* corner = &mesh_.indices[3 * static_cast<std::size_t>(hit.triangle)];
   const auto normal = [&](int k) { return mesh_.vertices[corner[k]].normal; };
   const glm::vec3 sum = (1 - hit.weights.x - hit.weights.y) * normal(0) + hit.weights.x * normal(1) + hit.weights.y * normal(2);
-  return sum / (std::max(glm::length(sum), 1e-20f) * (hit.is_back ? -1.0f : 1.0f));
+  hit.normal = sum / (std::max(glm::length(sum), 1e-20f) * (hit.is_back ? -1.0f : 1.0f));
+  return hit;
 }
 
 /// The pixels of the rectangle that an edge crosses.
@@ -98,7 +95,7 @@ SurfacePoint SurfaceFinder::point_at(const Frame& frame, const Hit& hit) const {
   const glm::vec3 w(1 - hit.weights.x - hit.weights.y, hit.weights);
   SurfacePoint point;
   point.position_m = w.x * a.position_m + w.y * b.position_m + w.z * c.position_m;
-  point.normal = normal_at(hit);
+  point.normal = hit.normal;
   point.color = w.x * a.color + w.y * b.color + w.z * c.color;
   point.exit_radiance =
       w.x * frame.exit_radiance[corner[0]] + w.y * frame.exit_radiance[corner[1]] + w.z * frame.exit_radiance[corner[2]];
@@ -132,21 +129,26 @@ void add(SurfacePoint& sum, const SurfacePoint& other) {
   sum.exit_radiance += other.exit_radiance, sum.depth_m += other.depth_m;
 }
 
+/// Visits a band's pixels tile after tile, so that those that follow each other are neighbours in the picture.
+template <typename Visit>
+void for_each_pixel(const PixelRect& rect, int band, const Visit& visit) {
+  const int top = band * kBandRows, bottom = std::min(top + kBandRows, rect.height);
+  for (int left = 0; left < rect.width; left += kTileColumns)
+    for (int y = top; y < bottom; ++y)
+      for (int x = left; x < std::min(left + kTileColumns, rect.width); ++x)
+        visit(x, y, static_cast<std::size_t>(y) * rect.width + x);
+}
+
 }  // namespace
 
-/// The samples of a pixel that the outline crosses, grouped by surface.
-void SurfaceFinder::add_samples(const Frame& frame, int x, int y, std::vector<SurfacePoint>& points) const {
-  thread_local RayStream rays;
-  const auto samples = sample_offsets_px_.size();
-  rays.resize(samples);
-  for (std::size_t i = 0; i < samples; ++i)
-    frame.set_ray(rays, i, frame.pixel_rays.at(frame.rect.x + x, frame.rect.y + y, sample_offsets_px_[i]));
-  rays_.closest_hits(rays, Coherence::coherent);
-  const std::size_t first = points.size();
+/// The samples of a pixel that the outline crosses, from `first_ray`, grouped by surface.
+void SurfaceFinder::add_samples(const Frame& frame, const RayStream& rays, std::size_t first_ray, std::size_t pixel,
+                                std::vector<SurfacePoint>& points) const {
+  const std::size_t first = points.size(), samples = sample_offsets_px_.size();
   std::array<int, 16> counts{};
-  for (std::size_t i = 0; i < samples; ++i) {
-    if (!rays.meets(i)) continue;
-    const SurfacePoint found = point_at(frame, hit_of(rays, i));
+  for (std::size_t ray = first_ray; ray < first_ray + samples; ++ray) {
+    if (!rays.meets(ray)) continue;
+    const SurfacePoint found = point_at(frame, hit_of(rays, ray));
     std::size_t at = first;
     for (; at < points.size(); ++at) {
       const SurfacePoint& group = points[at];
@@ -163,7 +165,7 @@ void SurfaceFinder::add_samples(const Frame& frame, int x, int y, std::vector<Su
     ++counts[at - first];
   }
   for (std::size_t at = first; at < points.size(); ++at) {
-    points[at].pixel = static_cast<std::uint32_t>(y * frame.rect.width + x);
+    points[at].pixel = static_cast<std::uint32_t>(pixel);
     points[at].coverage = static_cast<float>(counts[at - first]) / static_cast<float>(samples);
     finish(points[at], counts[at - first], frame.eye_tag_m);
   }
@@ -173,57 +175,68 @@ void SurfaceFinder::add_samples(const Frame& frame, int x, int y, std::vector<Su
 void SurfaceFinder::trace_band(const Frame& frame, int band) {
   thread_local RayStream rays;
   const PixelRect& rect = frame.rect;
-  const int top = band * kBandRows, rows = std::min(kBandRows, rect.height - top);
-  const int tiles = (rect.width + kTileColumns - 1) / kTileColumns;
-  rays.resize(static_cast<std::size_t>(tiles) * kTileColumns * rows);
-  // Tile after tile, so that neighbours in the stream are neighbours in the picture.
-  const auto ray_of = [&](int x, int y) {
-    return (static_cast<std::size_t>(x / kTileColumns) * rows + (y - top)) * kTileColumns + x % kTileColumns;
-  };
-  for (int y = top; y < top + rows; ++y)
-    for (int x = 0; x < tiles * kTileColumns; ++x)
-      frame.set_ray(rays, ray_of(x, y), frame.pixel_rays.at(rect.x + std::min(x, rect.width - 1), rect.y + y));
+  rays.resize(static_cast<std::size_t>(rect.width) * std::min(kBandRows, rect.height - band * kBandRows));
+  std::size_t ray = 0;
+  for_each_pixel(rect, band,
+                 [&](int x, int y, std::size_t) { frame.set_ray(rays, ray++, frame.pixel_rays.at(rect.x + x, rect.y + y)); });
   rays_.closest_hits(rays, Coherence::coherent);
-  for (int y = top; y < top + rows; ++y)
-    for (int x = 0; x < rect.width; ++x) hits_[static_cast<std::size_t>(y) * rect.width + x] = hit_of(rays, ray_of(x, y));
+  ray = 0;
+  for_each_pixel(rect, band, [&](int, int, std::size_t pixel) {
+    if (rays.meets(ray))
+      hits_[pixel] = hit_of(rays, ray);
+    else
+      hits_[pixel].triangle = RayStream::kNothing;
+    ++ray;
+  });
 }
 
 /// Whether two neighbours' surfaces do not go on from one to the other, as where parts go through each other.
-bool SurfaceFinder::is_step(const Hit& a, const Hit& b) const {
-  if (a.triangle == b.triangle || a.triangle == RayStream::kNothing || b.triangle == RayStream::kNothing) return false;
-  return std::abs(a.depth_m - b.depth_m) > kStepDepth * a.depth_m || glm::dot(normal_at(a), normal_at(b)) < kSameNormal;
+bool SurfaceFinder::is_step(const Hit& a, const Hit& b) {
+  if (a.triangle == b.triangle || b.triangle == RayStream::kNothing) return false;
+  return std::abs(a.depth_m - b.depth_m) > kStepDepth * a.depth_m || glm::dot(a.normal, b.normal) < kSameNormal;
 }
 
-/// Marks the pixels of a band that differ much from those to their right or below.
+/// Marks the pixels of a band that differ much from those around.
 void SurfaceFinder::mark_steps(const Frame& frame, int band) {
   const PixelRect& rect = frame.rect;
   for (int y = band * kBandRows; y < std::min((band + 1) * kBandRows, rect.height); ++y) {
     for (int x = 0; x < rect.width; ++x) {
       const std::size_t pixel = static_cast<std::size_t>(y) * rect.width + x;
+      if (is_outline_[pixel] || hits_[pixel].triangle == RayStream::kNothing) continue;
       const auto differs = [&](int dx, int dy) {
         if (x + dx < 0 || y + dy < 0 || x + dx >= rect.width || y + dy >= rect.height) return false;
         return is_step(hits_[pixel], hits_[static_cast<std::size_t>(y + dy) * rect.width + (x + dx)]);
       };
-      if (!is_outline_[pixel] && (differs(1, 0) || differs(0, 1) || differs(-1, 0) || differs(0, -1))) is_outline_[pixel] = 1;
+      is_outline_[pixel] = differs(1, 0) || differs(0, 1) || differs(-1, 0) || differs(0, -1);
     }
   }
 }
 
 void SurfaceFinder::put_band(const Frame& frame, int band, std::vector<SurfacePoint>& points) const {
-  points.clear();
+  thread_local RayStream rays;
   const PixelRect& rect = frame.rect;
-  for (int y = band * kBandRows; y < std::min((band + 1) * kBandRows, rect.height); ++y) {
-    for (int x = 0; x < rect.width; ++x) {
-      const std::size_t pixel = static_cast<std::size_t>(y) * rect.width + x;
-      if (is_outline_[pixel]) {
-        add_samples(frame, x, y, points);
-      } else if (hits_[pixel].triangle != RayStream::kNothing) {
-        points.push_back(point_at(frame, hits_[pixel]));
-        points.back().pixel = static_cast<std::uint32_t>(pixel);
-        finish(points.back(), 1, frame.eye_tag_m);
-      }
+  const std::size_t samples = sample_offsets_px_.size();
+  std::size_t crossed = 0;
+  for_each_pixel(rect, band, [&](int, int, std::size_t pixel) { crossed += is_outline_[pixel] != 0; });
+  rays.resize(crossed * samples);
+  std::size_t ray = 0;
+  for_each_pixel(rect, band, [&](int x, int y, std::size_t pixel) {
+    if (!is_outline_[pixel]) return;
+    for (const glm::vec2& offset : sample_offsets_px_)
+      frame.set_ray(rays, ray++, frame.pixel_rays.at(rect.x + x, rect.y + y, offset));
+  });
+  if (crossed > 0) rays_.closest_hits(rays, Coherence::coherent);
+  points.clear();
+  ray = 0;
+  for_each_pixel(rect, band, [&](int, int, std::size_t pixel) {
+    if (is_outline_[pixel]) {
+      add_samples(frame, rays, std::exchange(ray, ray + samples), pixel, points);
+    } else if (hits_[pixel].triangle != RayStream::kNothing) {
+      points.push_back(point_at(frame, hits_[pixel]));
+      points.back().pixel = static_cast<std::uint32_t>(pixel);
+      finish(points.back(), 1, frame.eye_tag_m);
     }
-  }
+  });
 }
 
 const VisibleSurface& SurfaceFinder::find(const FrameView& view, const DistortionLimit& limit, const PixelRays& pixel_rays,

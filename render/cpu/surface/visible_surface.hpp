@@ -53,16 +53,17 @@ class SurfaceFinder {
     glm::vec2 weights{0};
     float depth_m = 0;
     bool is_back = false;
+    glm::vec3 normal{0};  ///< interpolated, of length 1, towards the viewer
   };
 
   void mark_outline(const Frame& frame);
   void trace_band(const Frame& frame, int band);
   void mark_steps(const Frame& frame, int band);
   void put_band(const Frame& frame, int band, std::vector<SurfacePoint>& points) const;
-  void add_samples(const Frame& frame, int x, int y, std::vector<SurfacePoint>& points) const;
-  bool is_step(const Hit& a, const Hit& b) const;
-  static Hit hit_of(const RayStream& rays, std::size_t ray);
-  glm::vec3 normal_at(const Hit& hit) const;
+  void add_samples(const Frame& frame, const RayStream& rays, std::size_t first_ray, std::size_t pixel,
+                   std::vector<SurfacePoint>& points) const;
+  static bool is_step(const Hit& a, const Hit& b);
+  Hit hit_of(const RayStream& rays, std::size_t ray) const;
   SurfacePoint point_at(const Frame& frame, const Hit& hit) const;
 
   const Mesh& mesh_;
