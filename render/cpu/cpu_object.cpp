@@ -14,6 +14,8 @@ namespace {
 /// How far a smoothed surface may lie from its triangles, in shares of the object's diagonal.
 constexpr float kSkinShare = 0.01f;
 constexpr std::size_t kPointsAtOnce = 512;
+/// So many points ahead their light is fetched.
+constexpr std::size_t kFetchedAhead = 8;
 constexpr float kBrightest = 1e9f;
 
 /// Never NaN, infinite or negative (out of the plate's gamut): one such pixel would spread with the glare.
@@ -88,25 +90,27 @@ void CpuObject::put(const FrameView& view, const FramePlan& plan, const VisibleS
                     std::span<const glm::vec3> mirrored, ObjectImages& images) const {
   const PixelRect& rect = surface.rect;
   const std::vector<SurfacePoint>& points = surface.points;
-  const std::vector<std::int32_t>& firsts = surface.first;
   const glm::mat3 camera_from_tag(view.camera_from_tag.rotation);
-  parallel_for((firsts.size() + kPointsAtOnce - 1) / kPointsAtOnce, 0, [&](std::size_t chunk) {
-    for (std::size_t pixel = chunk * kPointsAtOnce; pixel < std::min((chunk + 1) * kPointsAtOnce, firsts.size()); ++pixel) {
-      if (firsts[pixel] < 0) continue;
-      const int x = static_cast<int>(pixel) % rect.width + rect.x - plan.virtual_rect.x;
-      const int y = static_cast<int>(pixel) / rect.width + rect.y - plan.virtual_rect.y;
-      for (auto i = static_cast<std::size_t>(firsts[pixel]); i < points.size() && points[i].pixel == pixel; ++i) {
-        const SurfacePoint& point = points[i];
-        const Shaded shaded = shade(point, mirrored[i], view.exposure);
-        add(images.color.pixel(x, y), exposed(view, shaded.radiance), point.coverage);
-        images.color.pixel(x, y)[3] += point.coverage;
-        if (!images.emission.data.empty()) add(images.emission.pixel(x, y), exposed(view, shaded.emitted), point.coverage);
-        if (images.reflection.data.empty()) continue;
-        add(images.reflection.pixel(x, y), exposed(view, shaded.reflected), point.coverage);
-        add(images.normal_depth.pixel(x, y), camera_from_tag * point.normal, point.coverage);
-        images.normal_depth.pixel(x, y)[3] += point.coverage * point.depth_m;
-        images.normal_depth.pixel(x, y)[4] += point.coverage;
-      }
+  /// The first point at `index` or later that is its pixel's first.
+  const auto pixel_from = [&](std::size_t index) {
+    while (index > 0 && index < points.size() && points[index].pixel == points[index - 1].pixel) ++index;
+    return std::min(index, points.size());
+  };
+  parallel_for((points.size() + kPointsAtOnce - 1) / kPointsAtOnce, 0, [&](std::size_t chunk) {
+    for (std::size_t i = pixel_from(chunk * kPointsAtOnce); i < pixel_from((chunk + 1) * kPointsAtOnce); ++i) {
+      const SurfacePoint& point = points[i];
+      direct_.prefetch(points[std::min(i + kFetchedAhead, points.size() - 1)]);
+      const int x = static_cast<int>(point.pixel) % rect.width + rect.x - plan.virtual_rect.x;
+      const int y = static_cast<int>(point.pixel) / rect.width + rect.y - plan.virtual_rect.y;
+      const Shaded shaded = shade(point, mirrored[i], view.exposure);
+      add(images.color.pixel(x, y), exposed(view, shaded.radiance), point.coverage);
+      images.color.pixel(x, y)[3] += point.coverage;
+      if (!images.emission.data.empty()) add(images.emission.pixel(x, y), exposed(view, shaded.emitted), point.coverage);
+      if (images.reflection.data.empty()) continue;
+      add(images.reflection.pixel(x, y), exposed(view, shaded.reflected), point.coverage);
+      add(images.normal_depth.pixel(x, y), camera_from_tag * point.normal, point.coverage);
+      images.normal_depth.pixel(x, y)[3] += point.coverage * point.depth_m;
+      images.normal_depth.pixel(x, y)[4] += point.coverage;
     }
   });
 }

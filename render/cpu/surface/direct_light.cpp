@@ -199,6 +199,11 @@ DirectLight::Corners DirectLight::corners_at(const SurfacePoint& point) const {
   return {{node(across + 1, up + 1), node(across, up + 1), node(across + 1, up)}, {f.x + f.y - 1, 1 - f.x, 1 - f.y}};
 }
 
+void DirectLight::prefetch(const SurfacePoint& point) const {
+  if (samples_.empty()) return;
+  for (const DirectLightNode* node : corners_at(point).nodes) __builtin_prefetch(node);
+}
+
 glm::vec3 DirectLight::irradiance(const SurfacePoint& point, float* shares) const {
   if (samples_.empty()) return glm::vec3(0);
   const auto [nodes, weights] = corners_at(point);

@@ -17,8 +17,8 @@
 
 namespace catchlight::render {
 
-/// What is split off, at one place.
-struct DirectLightNode {
+/// What is split off, at one place. Aligned, so that each lies in one line of the cache.
+struct alignas(32) DirectLightNode {
   std::array<std::uint64_t, 2> seen{};  ///< a bit a sample: in front of the surface, and nothing between
   glm::vec3 irradiance{0};              ///< by those samples, on the surface there
   bool is_inside = false;               ///< within another part of the object: dark, and nobody sees it
@@ -42,6 +42,9 @@ class DirectLight {
 
   /// Irradiance / pi at each vertex, for what mirrors may see; empty without samples.
   const std::vector<glm::vec3>& at_vertices_over_pi();
+
+  /// Begins to fetch what irradiance() will read for the point, which the cache seldom holds.
+  void prefetch(const SurfacePoint& point) const;
 
   /// Irradiance at the point. `shares`, if not null, gets how much of each sample is seen, kMaxLightSamples values.
   glm::vec3 irradiance(const SurfacePoint& point, float* shares) const;
