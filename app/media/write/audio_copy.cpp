@@ -1,14 +1,29 @@
 #include "app/media/write/audio_copy.hpp"
 
+#include <algorithm>
+
 #include "catchlight/error.hpp"
 
 namespace catchlight::app {
+
+namespace {
+
+/// Whether the file's header already says so; to look into its packets takes the time of decoding a frame.
+bool has_no_audio(const AVFormatContext& input) {
+  if ((input.ctx_flags & AVFMTCTX_NOHEADER) != 0) return false;  // streams may appear between the packets
+  return std::none_of(input.streams, input.streams + input.nb_streams, [](const AVStream* stream) {
+    return stream->codecpar->codec_type == AVMEDIA_TYPE_AUDIO || stream->codecpar->codec_type == AVMEDIA_TYPE_UNKNOWN;
+  });
+}
+
+}  // namespace
 
 AudioCopy::AudioCopy(const std::string& source_location, AVFormatContext& output) {
   AVFormatContext* input = nullptr;
   check_ffmpeg(avformat_open_input(&input, ("file:" + source_location).c_str(), nullptr, nullptr),
                "cannot read the audio of '" + source_location + "'");
   input_.reset(input);
+  if (has_no_audio(*input)) return;
   check_ffmpeg(avformat_find_stream_info(input, nullptr), "cannot read the audio of '" + source_location + "'");
   for (unsigned i = 0; i < input->nb_streams; ++i) {
     const AVCodecParameters& audio = *input->streams[i]->codecpar;
