@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <string>
 #include <vector>
 
 #include "render/math/sh.hpp"
@@ -23,6 +24,7 @@ struct RenderScene {
   ReflectionMap reflections;             ///< all of it
   ReflectionMap rest_reflections = {};   ///< less the compact lights; used where there are any
   glm::vec3 probe_in_tag_m{0.0f};        ///< where the probe was captured
+  std::string transfer_key = {};  ///< of mesh and transfer, in the cache; empty: nothing that is made of them is kept there
 };
 
 }  // namespace catchlight::render

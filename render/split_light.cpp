@@ -8,6 +8,18 @@ SplitLight split_light(const RenderScene& scene) {
   return light;
 }
 
+ContentHash content_hash(const std::string& transfer_key, const SplitLight& light) {
+  ContentHash hash;
+  hash.add_bytes(transfer_key.data(), transfer_key.size());
+  hash.add(light.whole);
+  hash.add(light.split_off);
+  for (const LightSample& sample : light.samples) {
+    hash.add(sample.direction);
+    hash.add(sample.irradiance);
+  }
+  return hash;
+}
+
 SplitLight turned(const SplitLight& light, const glm::dmat3& rotation) {
   SplitLight result{rotate_sh(light.whole, rotation), {}, light.samples};
   if (!light.split_off.empty()) result.split_off = rotate_sh(light.split_off, rotation);

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <string>
 #include <vector>
 
+#include "render/cache/content_hash.hpp"
 #include "render/math/sh.hpp"
 #include "render/probe/light_samples.hpp"
 #include "render/render_scene.hpp"
@@ -17,6 +19,9 @@ struct SplitLight {
 };
 
 SplitLight split_light(const RenderScene& scene);
+
+/// A hash of what object and receiver look like under a light: of the transfer's key, and of the light.
+ContentHash content_hash(const std::string& transfer_key, const SplitLight& light);
 
 SplitLight turned(const SplitLight& light, const glm::dmat3& rotation);
 

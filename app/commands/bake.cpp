@@ -30,7 +30,7 @@ void bake(const Arguments& arguments, Log& log) {
            std::to_string(scene.transfer.bands) + " bands, " + std::to_string(built.rays) + " rays, " +
            (built.transfer_was_cached ? "taken from the cache" : "baked") + " in " +
            number_text(std::round(elapsed_s * 10) / 10) + " s");
-  log.info("  cache: " + render::default_cache_folder() + ", entry " + built.transfer_key);
+  log.info("  cache: " + render::default_cache_folder() + ", entry " + built.scene.transfer_key);
   for (const PlanEntry& entry : built.plan) log.info("  " + entry.choice + " = " + entry.value + ": " + entry.reason);
 }
 

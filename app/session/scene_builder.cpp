@@ -199,7 +199,7 @@ void SceneBuilder::bake(const SceneSettings& settings, const WarningHandler& war
                           ' ' + std::to_string(grid.rows) + ' ' + std::to_string(options.bands) + ' ' +
                           std::to_string(options.rays) + ' ' + std::to_string(options.bounces);
   renew(ScenePart::transfer, key, [&](auto&) {
-    built_.transfer_key = render::transfer_key(mesh, grid, options);
+    built_.scene.transfer_key = render::transfer_key(mesh, grid, options);
     built_.scene.transfer = render::load_or_bake_transfer(mesh, grid, options, render::default_cache_folder(), progress, warn,
                                                           &built_.transfer_was_cached);
   });

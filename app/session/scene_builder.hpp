@@ -38,7 +38,6 @@ struct BuiltScene {
   LightOrientation orientation;
   glm::dvec3 still_irradiance_over_pi{0.0};  ///< on the tag, where the light does not follow the camera
   int rays = 0;                              ///< per vertex in the bake
-  std::string transfer_key;                  ///< names the bake in the cache
   bool transfer_was_cached = false;
   std::vector<PlanEntry> plan;
   int version = 0;  ///< rises whenever `scene` changes

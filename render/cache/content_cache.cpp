@@ -39,7 +39,7 @@ bool is_entry(const fs::path& file) {
 
 // Whether the work went through; a warning says why not.
 template <class Work>
-bool keep(const Work& work, const std::string& kind, const WarningHandler& warn) {
+bool succeeds(const Work& work, const std::string& kind, const WarningHandler& warn) {
   try {
     work();
     return true;
@@ -90,7 +90,7 @@ bool ContentCache::is_writable(const std::string& kind, const std::string& key, 
     fs::create_directories(folder_);
     const PendingFile made_and_removed(file(kind, key));
   };
-  return keep(make_and_remove, kind, warn);
+  return succeeds(make_and_remove, kind, warn);
 }
 
 void ContentCache::write(const std::string& kind, const std::string& key, const Pass& pass, const WarningHandler& warn) const {
@@ -110,7 +110,11 @@ void ContentCache::write(const std::string& kind, const std::string& key, const 
     pending.commit();
     remove_oldest(path);
   };
-  keep(write_all, kind, warn);
+  succeeds(write_all, kind, warn);
+}
+
+void ContentCache::keep(const std::string& kind, const std::string& key, const Pass& pass, const WarningHandler& warn) const {
+  if (is_writable(kind, key, warn)) write(kind, key, pass, warn);
 }
 
 void ContentCache::remove_oldest(const fs::path& kept) const {

@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "catchlight/error.hpp"
@@ -80,27 +82,59 @@ class ContentCache {
   Value get(const std::string& kind, const std::string& key, const WarningHandler& warn, const Make& make, const Archive& archive,
             bool* was_cached = nullptr) const {
     Value value{};
-    const bool found = read(kind, key, [&](CacheStream& file) { archive(file, value); });
+    const Pass pass = [&](CacheStream& file) { archive(file, value); };
+    const bool found = read(kind, key, pass);
     if (was_cached) *was_cached = found;
     if (found) return value;
     const bool can_be_kept = is_writable(kind, key, warn);
     value = make();
-    if (can_be_kept)
-      write(
-          kind, key, [&](CacheStream& file) { archive(file, value); }, warn);
+    if (can_be_kept) write(kind, key, pass, warn);
     return value;
   }
 
- private:
+  /// Passes members to or from a stream.
   using Pass = std::function<void(CacheStream&)>;
-  std::filesystem::path file(const std::string& kind, const std::string& key) const;
+
+  /// Reads an entry where there is one that is whole. False: the members hold anything.
   bool read(const std::string& kind, const std::string& key, const Pass& pass) const;
+
+  /// Writes an entry, over another that may be there. An unwritable folder only costs a warning.
+  void keep(const std::string& kind, const std::string& key, const Pass& pass, const WarningHandler& warn) const;
+
+ private:
+  std::filesystem::path file(const std::string& kind, const std::string& key) const;
   bool is_writable(const std::string& kind, const std::string& key, const WarningHandler& warn) const;
   void write(const std::string& kind, const std::string& key, const Pass& pass, const WarningHandler& warn) const;
   void remove_oldest(const std::filesystem::path& kept) const;
 
   std::filesystem::path folder_;
   std::uintmax_t max_bytes_;
+};
+
+/// The entries of a cache that are made from the same. Without a cache, none is found and none is kept.
+class KeyedCache {
+ public:
+  KeyedCache() = default;
+  /// `from`: the hash of all that they are made from, but for the way they are made.
+  KeyedCache(ContentCache cache, const ContentHash& from) : cache_(std::move(cache)), from_(from) {}
+
+  /// ContentCache::read and keep. `version` rises with the way the entry is made.
+  bool read(const std::string& kind, std::uint32_t version, const ContentCache::Pass& pass) const {
+    return cache_ && cache_->read(kind, key(version), pass);
+  }
+  void keep(const std::string& kind, std::uint32_t version, const ContentCache::Pass& pass) const {
+    if (cache_) cache_->keep(kind, key(version), pass, {});
+  }
+
+ private:
+  std::string key(std::uint32_t version) const {
+    ContentHash hash = from_;
+    hash.add(version);
+    return hash.text();
+  }
+
+  std::optional<ContentCache> cache_;
+  ContentHash from_;
 };
 
 }  // namespace catchlight::render

@@ -81,8 +81,10 @@ SceneNeeds CpuCompositor::Impl::needs() const {
 void CpuCompositor::Impl::relight(const glm::dmat3& tag_from_light) {
   const bool stands_still = tag_from_light == glm::dmat3(1.0);
   const SplitLight light_tag = stands_still ? light_probe : turned(light_probe, tag_from_light);
-  object.light_by(light_tag, stands_still);
-  if (receiver) receiver->update(light_tag, stands_still);
+  KeyedCache kept;
+  if (stands_still && !scene.transfer_key.empty()) kept = {ContentCache(""), content_hash(scene.transfer_key, light_tag)};
+  object.light_by(light_tag, stands_still, kept);
+  if (receiver) receiver->update(light_tag, stands_still, kept);
   lit_from = tag_from_light;
 }
 

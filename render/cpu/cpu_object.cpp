@@ -56,9 +56,9 @@ CpuObject::CpuObject(const RenderScene& scene, const RayScene& rays, const Bound
       mirror_rays_(scene.mesh, rays, materials_, brdf_, bounds.empty() ? 0 : kSkinShare * bounds.rounded_diagonal_m()),
       mirrored_(materials_, mirror_rays_, reflection_rays) {}
 
-void CpuObject::light_by(const SplitLight& light_tag, bool stands_still) {
+void CpuObject::light_by(const SplitLight& light_tag, bool stands_still, const KeyedCache& kept) {
   exit_radiance_ = transferred_light(scene_.transfer.object, scene_.transfer.object_direct, light_tag);
-  direct_.set_samples(light_tag.samples, stands_still);
+  direct_.set_samples(light_tag.samples, stands_still, kept);
   highlights_.set_samples(light_tag.samples);
 }
 

@@ -31,7 +31,8 @@ class CpuObject {
   CpuObject(const RenderScene& scene, const RayScene& rays, const Bounds& bounds, int samples, int reflection_rays);
 
   /// Takes over the light, in the tag frame; needed again when it turns. `stands_still`: it does not turn with every frame.
-  void light_by(const SplitLight& light_tag, bool stands_still);
+  /// `kept`: for that scene and light.
+  void light_by(const SplitLight& light_tag, bool stands_still, const KeyedCache& kept);
 
   bool reflects() const { return materials_.reflects; }
   bool emits() const { return materials_.emits; }

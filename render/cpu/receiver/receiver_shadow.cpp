@@ -14,6 +14,9 @@
 namespace catchlight::render {
 namespace {
 
+// Raise when the texture or its members change: older files then no longer match.
+constexpr std::uint32_t kVersion = 1;
+
 /// The outermost points fade to 1: the end of the grid must not be seen.
 constexpr float kFadePoints = 3;
 constexpr int kMaxTexels = 2048;
@@ -74,7 +77,10 @@ glm::vec3 smooth(std::span<const glm::vec3> values, const glm::ivec2& points, co
 ReceiverShadow::ReceiverShadow(const Transfer& transfer, const RayScene& rays, const Bounds& object)
     : transfer_(transfer), rays_(rays), object_(object) {}
 
-void ReceiverShadow::update(const SplitLight& light_tag, bool stands_still) {
+void ReceiverShadow::update(const SplitLight& light_tag, bool stands_still, const KeyedCache& kept) {
+  static constexpr auto kKind = "receiver";
+  const auto pass = [this](CacheStream& file) { archive(file); };
+  if (kept.read(kKind, kVersion, pass)) return;
   const std::vector<glm::vec3> grid_light = transferred_light(transfer_.receiver, transfer_.receiver_direct, light_tag);
   const OpenPlaneLight open = open_plane_light(transfer_.receiver_unshadowed, light_tag);
   const PlaneRect of_lights = shadow_reach(light_tag.samples, open, object_);
@@ -83,6 +89,14 @@ void ReceiverShadow::update(const SplitLight& light_tag, bool stands_still) {
     lights = plane_lights(light_tag.samples, rays_, receiver_texels(of_lights, object_, stands_still ? 1 : 2), object_);
   draw_ratio(open, grid_light, lights);
   crop();
+  kept.keep(kKind, kVersion, pass);
+}
+
+void ReceiverShadow::archive(CacheStream& file) {
+  file(reach_);
+  file(size_);
+  file(texels_per_m_);
+  file(ratio_);
 }
 
 void ReceiverShadow::draw_ratio(const OpenPlaneLight& open, std::span<const glm::vec3> grid_light, const PlaneLights& lights) {

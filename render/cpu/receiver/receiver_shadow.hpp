@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "render/cache/content_cache.hpp"
 #include "render/cpu/receiver/plane_lights.hpp"
 #include "render/math/float4.hpp"
 #include "render/mesh/bounds.hpp"
@@ -22,8 +23,9 @@ class ReceiverShadow {
   /// Keeps references. `transfer` must have a grid of at least 2 x 2 points; `object` is the box around what casts the shadow.
   ReceiverShadow(const Transfer& transfer, const RayScene& rays, const Bounds& object);
 
-  /// Finds the plane's shadow under `light_tag`; more coarsely where that does not stand still.
-  void update(const SplitLight& light_tag, bool stands_still);
+  /// Finds the plane's shadow under `light_tag`; more coarsely where that does not stand still. `kept`: for that transfer and
+  /// light, standing still.
+  void update(const SplitLight& light_tag, bool stands_still, const KeyedCache& kept = {});
 
   /// The part of the plane where the ratio differs from 1 by more than can be seen.
   const PlaneRect& reach() const { return reach_; }
@@ -37,6 +39,7 @@ class ReceiverShadow {
 
   void draw_ratio(const OpenPlaneLight& open, std::span<const glm::vec3> grid_light, const PlaneLights& lights);
   void crop();
+  void archive(CacheStream& file);
 
   const Transfer& transfer_;
   const RayScene& rays_;

@@ -12,6 +12,10 @@
 namespace catchlight::render {
 namespace {
 
+constexpr auto kKind = "direct-light";
+// Raise when what is found or its members change: older files then no longer match.
+constexpr std::uint32_t kVersion = 1;
+
 /// Shares of the object's diagonal: how far above a surface its shadow is looked for, which smoothed normals need; how fine
 /// shadows are kept.
 constexpr float kLiftShare = 1.5f / 512, kLatticeShare = 1.0f / 384;
@@ -52,12 +56,29 @@ DirectLight::DirectLight(const Mesh& mesh, const RayScene& rays, const Bounds& o
       lattice_step_m_(fine_step_m_),
       probed_edge_m_(object.empty() ? 1 : kProbedShare * object.rounded_diagonal_m()) {}
 
-void DirectLight::set_samples(std::span<const LightSample> samples_tag, bool stands_still) {
+DirectLight::~DirectLight() {
+  keep_findings();
+}
+
+void DirectLight::archive(CacheStream& file) {
+  file(vertices_);
+  file(is_vertex_known_);
+  file(lattices_);
+  file(lattice_nodes_);
+}
+
+void DirectLight::keep_findings() {
+  if (std::exchange(has_news_, false)) kept_.keep(kKind, kVersion, [this](CacheStream& file) { archive(file); });
+}
+
+void DirectLight::set_samples(std::span<const LightSample> samples_tag, bool stands_still, const KeyedCache& kept) {
+  keep_findings();
+  kept_ = kept;
   lattice_step_m_ = (stands_still ? 1 : kCoarser) * fine_step_m_;
   samples_.assign(samples_tag.begin(), samples_tag.end());
   at_vertices_over_pi_.clear();
+  if (samples_.empty() || kept_.read(kKind, kVersion, [this](CacheStream& file) { archive(file); })) return;
   lattice_nodes_.clear();
-  if (samples_.empty()) return;
   vertices_.resize(mesh_.vertices.size());
   is_vertex_known_.assign(mesh_.vertices.size(), 0);
   lattices_.assign(mesh_.indices.size() / 3, {});
@@ -108,7 +129,11 @@ const std::vector<glm::vec3>& DirectLight::at_vertices_over_pi() {
   std::vector<std::uint32_t> unknown;
   for (std::uint32_t v = 0; v < vertices_.size(); ++v)
     if (!std::exchange(is_vertex_known_[v], 1)) unknown.push_back(v);
-  find_vertices(unknown);
+  if (!unknown.empty()) {
+    has_news_ = false;  // nothing half-done is kept
+    find_vertices(unknown);
+    has_news_ = true;
+  }
   for (const DirectLightNode& node : vertices_) at_vertices_over_pi_.push_back(node.irradiance / glm::pi<float>());
   return at_vertices_over_pi_;
 }
@@ -164,6 +189,8 @@ void DirectLight::prepare(std::span<const SurfacePoint> points) {
       if (!std::exchange(is_vertex_known_[vertex], 1)) vertices.push_back(vertex);
     }
   }
+  if (triangles.empty()) return;
+  has_news_ = false;  // nothing half-done is kept
   find_vertices(vertices);
   parallel_for(triangles.size(), 0, [&](std::size_t i) { look_at(triangles[i]); });
   std::erase_if(triangles, [](const Known& known) { return known.any == known.every; });
@@ -177,6 +204,7 @@ void DirectLight::prepare(std::span<const SurfacePoint> points) {
   }
   lattice_nodes_.resize(nodes);
   parallel_for(triangles.size(), 0, [&](std::size_t i) { fill_lattice(triangles[i]); });
+  has_news_ = true;
 }
 
 DirectLight::Corners DirectLight::corners_at(const SurfacePoint& point) const {

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "render/cache/content_cache.hpp"
 #include "render/cpu/surface/visible_surface.hpp"
 #include "render/mesh/bounds.hpp"
 #include "render/probe/light_samples.hpp"
@@ -30,10 +31,14 @@ class DirectLight {
  public:
   /// Keeps references. `object`: the box around the mesh.
   DirectLight(const Mesh& mesh, const RayScene& rays, const Bounds& object);
+  ~DirectLight();
+  DirectLight(const DirectLight&) = delete;
+  DirectLight& operator=(const DirectLight&) = delete;
 
-  /// Takes over the samples (tag frame; at most kMaxLightSamples). Nothing is known under them yet. `stands_still`: they are not
-  /// there for this frame alone, so that finer shadows are worth finding.
-  void set_samples(std::span<const LightSample> samples_tag, bool stands_still);
+  /// Takes over the samples (tag frame; at most kMaxLightSamples). `stands_still`: they are not there for this frame alone, so
+  /// that finer shadows are worth finding. Known under them is what `kept` (for that mesh and light) has; what is found besides
+  /// is added to it in the end.
+  void set_samples(std::span<const LightSample> samples_tag, bool stands_still, const KeyedCache& kept = {});
 
   std::span<const LightSample> samples() const { return samples_; }
 
@@ -73,6 +78,8 @@ class DirectLight {
   DirectLightNode node_in(std::uint32_t triangle, const glm::vec2& weights, const Bits& seen, const Bits& unknown) const;
   void fill_lattice(const Known& known);
   Corners corners_at(const SurfacePoint& point) const;
+  void archive(CacheStream& file);
+  void keep_findings();
 
   const Mesh& mesh_;
   const RayScene& rays_;
@@ -82,6 +89,8 @@ class DirectLight {
   std::vector<char> is_vertex_known_;
   std::vector<Lattice> lattices_;  ///< a triangle each
   std::vector<glm::vec3> at_vertices_over_pi_;
+  KeyedCache kept_;
+  bool has_news_ = false;  ///< more is known than is kept
 };
 
 }  // namespace catchlight::render

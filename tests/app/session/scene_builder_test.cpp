@@ -181,7 +181,7 @@ TEST_F(SceneBuild, WhatCostsLessThanLightLeavesTheSceneAsItIs) {
   const BuiltScene before = build();
   change_all({ChangeCost::view, ChangeCost::passes, ChangeCost::track, ChangeCost::footage});
   const BuiltScene after = build();
-  EXPECT_EQ(after.transfer_key, before.transfer_key);
+  EXPECT_EQ(after.scene.transfer_key, before.scene.transfer_key);
   EXPECT_EQ(after.probe.image.data, before.probe.image.data);
   EXPECT_EQ(after.orientation.light_from_probe, before.orientation.light_from_probe);
   EXPECT_EQ(after.orientation.fixed_from_light, before.orientation.fixed_from_light);

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <thread>
 
 #include "catchlight/error.hpp"
@@ -14,6 +16,7 @@
 #include "render/probe/light_samples.hpp"
 #include "render/transfer/transfer.hpp"
 #include "tests/support/shapes.hpp"
+#include "tests/support/test_files.hpp"
 
 namespace {
 long pretended_cores = sysconf(_SC_NPROCESSORS_ONLN);
@@ -153,6 +156,31 @@ TEST(CpuCompositor, LightThatTurnsEveryFrameIsTheLightTurned) {
     EXPECT_TRUE(all_finite(composite));
     EXPECT_EQ(composite.rgba, CpuCompositor(scene, {}).render(view, plate_of).rgba) << frame;
   }
+}
+
+TEST(CpuCompositor, KeepsOnDiskOnlyWhatIsFoundInALightThatStandsStill) {
+  const TempFolder folder;
+  const char* before = std::getenv("XDG_CACHE_HOME");
+  const std::string restored = before ? before : "";
+  setenv("XDG_CACHE_HOME", (folder / "cache").c_str(), 1);
+  const auto entries = [&] {
+    const std::filesystem::path cache = folder / "cache/catchlight";
+    return std::filesystem::exists(cache) ? std::distance(std::filesystem::directory_iterator(cache), {}) : 0;
+  };
+  RenderScene scene = scene_of(still());
+  const Composite expected = CpuCompositor(scene, {}).render(view_of(), plate_of);
+  EXPECT_EQ(entries(), 0) << "a scene without a name";
+  scene.transfer_key = "still life";
+  {
+    CpuCompositor turning(scene, {});
+    for (const double angle_rad : {0.1, 0.2}) turning.render(turned(view_of(), angle_rad), plate_of);
+  }
+  EXPECT_EQ(entries(), 0) << "light that turns";
+  for (int run = 0; run < 3; ++run) {
+    EXPECT_EQ(CpuCompositor(scene, {}).render(view_of(), plate_of).rgba, expected.rgba) << run;
+    EXPECT_EQ(entries(), 2) << "the object's light, and the receiver's shadow";
+  }
+  before ? setenv("XDG_CACHE_HOME", restored.c_str(), 1) : unsetenv("XDG_CACHE_HOME");
 }
 
 TEST(CpuCompositor, DrawsAnObjectLargerThanTheFrame) {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include "render/cpu/receiver/plane_lights.hpp"
 #include "render/mesh/bounds.hpp"
@@ -14,6 +15,7 @@
 #include "render/transfer/transfer.hpp"
 #include "tests/support/brute_rays.hpp"
 #include "tests/support/shapes.hpp"
+#include "tests/support/test_files.hpp"
 
 namespace catchlight::render {
 namespace {
@@ -154,6 +156,47 @@ TEST(ReceiverShadow, FollowsTheLight) {
   twice.update(scene.light, true);
   for (float x = -0.2f; x < 0.2f; x += 0.013f)
     for (float y = -0.2f; y < 0.2f; y += 0.017f) EXPECT_EQ(once.ratio({x, y}), twice.ratio({x, y}));
+}
+
+/// Ratios all over the plane.
+std::vector<glm::vec3> ratios(const ReceiverShadow& shadow) {
+  std::vector<glm::vec3> result;
+  for (float x = -0.2f; x < 0.2f; x += 0.013f)
+    for (float y = -0.2f; y < 0.2f; y += 0.017f) result.push_back(shadow.ratio({x, y}));
+  return result;
+}
+
+class KeptReceiverShadow : public testing::Test {
+ protected:
+  /// As it is in the light of the scene. `rays`: of what throws the shadow where it must be found.
+  std::vector<glm::vec3> shadow(const RayScene& rays, const KeyedCache& kept) const {
+    ReceiverShadow result(scene_.transfer, rays, scene_.bounds);
+    result.update(scene_.light, true, kept);
+    return ratios(result);
+  }
+
+  TempFolder folder_;
+  Scene scene_{kLamps};
+  Mesh smaller_ = sphere({0.05f, 0.02f, 0.06f}, 0.01f, 6);
+  RayScene other_{smaller_};
+  KeyedCache kept_{ContentCache(folder_ / "cache"), content_hash("transfer", scene_.light)};
+};
+
+TEST_F(KeptReceiverShadow, IsTakenFromTheCache) {
+  const std::vector<glm::vec3> made = shadow(scene_.rays, kept_);
+  EXPECT_EQ(made, shadow(scene_.rays, {}));
+  EXPECT_EQ(made, shadow(other_, kept_)) << "it was made anew";
+}
+
+TEST_F(KeptReceiverShadow, IsMadeAnewWhereTheFileIsDamagedOrTheLightIsAnother) {
+  shadow(scene_.rays, kept_);
+  SplitLight brighter = scene_.light;
+  brighter.samples[1].irradiance.y *= 1.5;
+  const std::vector<glm::vec3> anew = shadow(other_, {});
+  EXPECT_EQ(anew, shadow(other_, {ContentCache(folder_ / "cache"), content_hash("transfer", brighter)}));
+  EXPECT_EQ(anew, shadow(other_, {ContentCache(folder_ / "cache"), content_hash("another", scene_.light)}));
+  damage_all_in(folder_ / "cache");
+  EXPECT_EQ(anew, shadow(other_, kept_));
 }
 
 }  // namespace

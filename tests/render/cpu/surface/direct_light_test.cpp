@@ -9,8 +9,10 @@
 
 #include "render/mesh/bounds.hpp"
 #include "render/render_scene.hpp"
+#include "render/split_light.hpp"
 #include "tests/support/brute_rays.hpp"
 #include "tests/support/shapes.hpp"
+#include "tests/support/test_files.hpp"
 
 namespace catchlight::render {
 namespace {
@@ -35,6 +37,12 @@ Mesh floor_of(int cells) {
       add_triangle(mesh, a, a + 1, b + 1);
       add_triangle(mesh, a, b + 1, b);
     }
+  return mesh;
+}
+
+Mesh ball_over_floor() {
+  Mesh mesh = floor_of(6);
+  append(mesh, sphere({0, 0, 0.2f}, 0.1f, 16));
   return mesh;
 }
 
@@ -141,8 +149,7 @@ TEST(DirectLight, OfABackFaceIsThatOfItsOwnSide) {
 }
 
 TEST(DirectLight, DoesNotDependOnWhichPointsWereSeenBefore) {
-  Mesh mesh = floor_of(6);
-  append(mesh, sphere({0, 0, 0.2f}, 0.1f, 16));
+  const Mesh mesh = ball_over_floor();
   const RayScene rays(mesh);
   const std::vector<SurfacePoint> points = random_points(mesh, 72, 400);
   DirectLight at_once(mesh, rays, bounds_of(mesh)), one_by_one(mesh, rays, bounds_of(mesh));
@@ -182,6 +189,52 @@ TEST(DirectLight, HasRoomForAsManySamplesAsAScene) {
   std::array<float, kMaxLightSamples> shares{};
   EXPECT_NEAR(light.irradiance(point, shares.data()).x, 0.5 * kMaxLightSamples, 1e-3);
   for (const float share : shares) EXPECT_NEAR(share, 1, 1e-6);
+}
+
+/// The light on a floor below a ball, and what of it the cache has.
+class KeptDirectLight : public testing::Test {
+ protected:
+  /// The light at the points; `rays`: of what stands in its way where that must be found.
+  std::vector<glm::vec3> light(const RayScene& rays, std::span<const SurfacePoint> points, const KeyedCache& kept) const {
+    DirectLight direct(mesh_, rays, bounds_of(mesh_));
+    direct.set_samples(kLamps, true, kept);
+    direct.prepare(points);
+    std::vector<glm::vec3> result;
+    for (const SurfacePoint& point : points) result.push_back(direct.irradiance(point, nullptr));
+    return result;
+  }
+
+  KeyedCache kept(const std::string& transfer) const {
+    return {ContentCache(folder_ / "cache"), content_hash(transfer, {{}, {}, kLamps})};
+  }
+
+  TempFolder folder_;
+  Mesh mesh_ = ball_over_floor(), open_ = floor_of(1);
+  RayScene rays_{mesh_}, open_rays_{open_};
+  std::vector<SurfacePoint> points_ = random_points(mesh_, 72, 400);
+};
+
+TEST_F(KeptDirectLight, IsTakenFromTheCache) {
+  const std::vector<glm::vec3> found = light(rays_, points_, kept("transfer"));
+  EXPECT_NE(found, light(open_rays_, points_, {})) << "nothing is in shadow";
+  EXPECT_EQ(found, light(rays_, points_, {}));
+  EXPECT_EQ(found, light(open_rays_, points_, kept("transfer"))) << "it was found anew";
+}
+
+TEST_F(KeptDirectLight, GrowsByWhatIsFoundBesides) {
+  const std::span<const SurfacePoint> all(points_), some = all.first(10);
+  light(rays_, some, kept("transfer"));
+  const std::vector<glm::vec3> found = light(rays_, all, kept("transfer"));
+  EXPECT_EQ(found, light(rays_, all, {}));
+  EXPECT_EQ(found, light(open_rays_, all, kept("transfer"))) << "what was found besides was not added";
+}
+
+TEST_F(KeptDirectLight, IsFoundAnewWhereTheFileIsDamagedOrAnothers) {
+  light(rays_, points_, kept("transfer"));
+  const std::vector<glm::vec3> anew = light(open_rays_, points_, {});
+  EXPECT_EQ(anew, light(open_rays_, points_, kept("another")));
+  damage_all_in(folder_ / "cache");
+  EXPECT_EQ(anew, light(open_rays_, points_, kept("transfer")));
 }
 
 }  // namespace
