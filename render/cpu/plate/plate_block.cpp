@@ -1,5 +1,6 @@
 #include "render/cpu/plate/plate_block.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -102,18 +103,17 @@ struct UnitNoise {
   }
 }
 
-[[gnu::target_clones("avx2", "default")]] void mark_changed(bool clips, float changed_code, PlateBlock& block) {
+[[gnu::target_clones("avx2", "default")]] void mark_changed(const PlateLevels& levels, std::size_t c, PlateBlock& block) {
+  const float changed_code = levels.changed_code;
+  const bool clips = levels.clips;
   for (int i = 0; i < block.count; ++i) {
-    int alike = 1;
-    for (int c = 0; c < 3; ++c) {
-      const float plate = block.code[c][i];
-      float code = block.result[c][i];
-      if (clips) code = positive(code) < 1 ? positive(code) : 1;
-      // A NaN in the plate compares as changed once something virtual covers it.
-      alike &= (code - plate <= changed_code ? 1 : 0) & (code - plate >= -changed_code ? 1 : 0);
-      block.result[c][i] = block.is_touched[i] ? code : plate;
-    }
-    block.is_changed[i] = block.is_touched[i] & (1 - alike);
+    const float plate = block.code[c][i], light = block.result[c][i], above_0 = positive(light);
+    const float bounded = above_0 < 1 ? above_0 : 1;
+    const float code = clips ? bounded : light, change = code - plate;
+    // A NaN in the plate compares as changed once something virtual covers it.
+    const int differs = (change <= changed_code) & (change >= -changed_code) ? 0 : 1;
+    block.is_changed[i] |= differs & block.is_touched[i];
+    block.result[c][i] = block.is_touched[i] ? code : plate;
   }
 }
 
@@ -134,7 +134,8 @@ void add_missing_noise(const SensorNoise& noise, PlateBlock& block) {
 }
 
 void find_changed(const PlateLevels& levels, PlateBlock& block) {
-  mark_changed(levels.clips, levels.changed_code, block);
+  std::fill_n(block.is_changed.data(), block.count, 0);
+  for (std::size_t c = 0; c < 3; ++c) mark_changed(levels, c, block);
 }
 
 }  // namespace catchlight::render

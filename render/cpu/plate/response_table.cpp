@@ -9,26 +9,24 @@ namespace {
 // Steps that are even in the logarithm's sense: a float's exponent, and the first 8 bits of its fraction.
 constexpr std::uint32_t kFirstBits = std::bit_cast<std::uint32_t>(1.0f / 65536);
 constexpr std::uint32_t kLastBits = std::bit_cast<std::uint32_t>(16.0f);
-constexpr std::uint32_t kStepBits = 15;
+constexpr std::uint32_t kStepBits = 15, kRestBits = (1u << kStepBits) - 1;
 
 inline bool is_in_table(std::uint32_t bits) {
   return bits - kFirstBits < kLastBits - kFirstBits;
 }
 
-/// Interpolates between the table's steps. Of light beyond them it only says that there is any.
-[[gnu::target_clones("avx2", "default")]] int interpolate(const float* __restrict table, const float* __restrict linear,
-                                                          int count, float* __restrict codes) {
+/// Which step of the table each light lies in, and where between its ends. True where some are beyond them.
+[[gnu::target_clones("avx2", "default")]] bool find_steps(const Plane& linear, int count,
+                                                          std::array<std::int32_t, kBlockPixels>& steps, Plane& shares) {
   int beyond = 0;
   for (int i = 0; i < count; ++i) {
     const auto bits = std::bit_cast<std::uint32_t>(linear[i]);
-    const bool is_in = is_in_table(bits);
-    beyond |= is_in ? 0 : 1;
-    const auto step = static_cast<std::int32_t>(is_in ? (bits - kFirstBits) >> kStepBits : 0);
-    const float share =
-        static_cast<float>(static_cast<std::int32_t>(bits & ((1u << kStepBits) - 1))) * (1.0f / (1u << kStepBits));
-    codes[i] = table[step] + share * (table[step + 1] - table[step]);
+    const std::uint32_t above = bits - kFirstBits, last = kLastBits - kFirstBits - 1, inside = above < last ? above : last;
+    beyond |= above > last ? 1 : 0;
+    steps[i] = static_cast<std::int32_t>(inside >> kStepBits);
+    shares[i] = static_cast<float>(static_cast<std::int32_t>(bits & kRestBits)) * (1.0f / (1u << kStepBits));
   }
-  return beyond;
+  return beyond != 0;
 }
 
 }  // namespace
@@ -91,7 +89,16 @@ void ResponseTable::read_linear(const Plate& plate, std::size_t first_pixel, int
 void ResponseTable::code(const Planes& linear, int channel, int count, Planes& codes) const {
   const Plane& light = linear[static_cast<std::size_t>(channel)];
   Plane& result = codes[static_cast<std::size_t>(channel)];
-  if (!inverse_.empty() && interpolate(inverse_.data(), light.data(), count, result.data()) == 0) return;
+  if (!inverse_.empty()) {
+    std::array<std::int32_t, kBlockPixels> steps;
+    Plane shares;
+    const bool beyond = find_steps(light, count, steps, shares);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      const float* step = &inverse_[static_cast<std::size_t>(steps[i])];
+      result[i] = step[0] + shares[i] * (step[1] - step[0]);
+    }
+    if (!beyond) return;
+  }
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
     if (inverse_.empty() || !is_in_table(std::bit_cast<std::uint32_t>(light[i]))) result[i] = exact_code(light[i], channel);
 }
