@@ -26,4 +26,9 @@ inline PixelRect unite(const PixelRect& a, const PixelRect& b) {
   return {x, y, std::max(a.x + a.width, b.x + b.width) - x, std::max(a.y + a.height, b.y + b.height) - y};
 }
 
+/// So many pixels more on every side; an empty one stays empty.
+inline PixelRect grown(const PixelRect& rect, int pixels) {
+  return rect.empty() ? rect : PixelRect{rect.x - pixels, rect.y - pixels, rect.width + 2 * pixels, rect.height + 2 * pixels};
+}
+
 }  // namespace catchlight

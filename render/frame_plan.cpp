@@ -23,10 +23,6 @@ PixelRect sharp_rect(const FrameView& view, const SceneNeeds& scene, const Frame
   return unite(rect, visible_rect(view.camera, plan.distortion_limit, view.camera_from_tag, reach, kNear_m));
 }
 
-PixelRect grown(const PixelRect& rect, int pixels) {
-  return {rect.x - pixels, rect.y - pixels, rect.width + 2 * pixels, rect.height + 2 * pixels};
-}
-
 }  // namespace
 
 FramePlan plan_frame(const FrameView& view, const SceneNeeds& scene, bool want_layers) {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <optional>
+#include <span>
 
 #include "catchlight/error.hpp"
 #include "render/cpu/cpu_object.hpp"
@@ -27,7 +27,7 @@ struct CpuCompositor::Impl {
   void relight(const glm::dmat3& tag_from_light);
   bool divides_glare() const;
   void read_plate(const FrameView& view, const PlateReader& plate, const PixelRect& rect);
-  void make_images(const FramePlan& plan);
+  void make_images(const FrameView& view, const FramePlan& plan);
   void draw_virtual_layer(const FrameView& view, const FramePlan& plan, Composite& result);
   void blur(const FramePlan& plan);
   void draw_composite(const FrameView& view, const FramePlan& plan, Composite& result);
@@ -48,8 +48,7 @@ struct CpuCompositor::Impl {
   Plate plate;
   PlateLight plate_light;
   ObjectImages images;
-  Image shadow;             ///< ratio, four channels
-  SharpBands shadow_edges;  ///< pixels of `shadow` that a blur changes
+  ReceiverImage shadow;
   LayerBlur layer_blur;
   PassStopwatch clock;
 };
@@ -102,25 +101,22 @@ void CpuCompositor::Impl::read_plate(const FrameView& view, const PlateReader& r
   response.set(view.color, plate.format);
 }
 
-void CpuCompositor::Impl::make_images(const FramePlan& plan) {
-  const int width = plan.virtual_rect.width, height = plan.virtual_rect.height;
+void CpuCompositor::Impl::make_images(const FrameView& view, const FramePlan& plan) {
+  images.covered = object.covered(view, plan);
+  images.rect = intersect(grown(images.covered, plan.blur.reach_px(images.covered)), plan.virtual_rect);
   const auto clear = [&](Image& image, int channels, bool is_wanted) {
-    image.width = width, image.height = height, image.channels = channels;
-    image.data.assign(is_wanted ? static_cast<std::size_t>(width) * height * channels : 0, 0.0f);
+    image.width = images.rect.width, image.height = images.rect.height, image.channels = channels;
+    image.data.assign(is_wanted ? static_cast<std::size_t>(image.width) * image.height * channels : 0, 0.0f);
   };
   clear(images.color, 4, true);
   clear(images.reflection, 3, plan.makes_layers);
   clear(images.normal_depth, 5, plan.makes_layers);
   clear(images.emission, 3, divides_glare());
-  shadow.width = width, shadow.height = height, shadow.channels = 4;
-  shadow.data.resize(static_cast<std::size_t>(width) * height * 4);
 }
 
 void CpuCompositor::Impl::blur(const FramePlan& plan) {
-  PixelRect covered = object.drawn();
-  covered.x -= plan.virtual_rect.x, covered.y -= plan.virtual_rect.y;
-  const glm::dvec2 corner(plan.virtual_rect.x, plan.virtual_rect.y);
-  const auto blur_one = [&](Image& image, SharpBands active, const MotionField& motion, double invisible) {
+  const auto blur_one = [&](Image& image, const PixelRect& rect, std::span<const PixelRect> active, const MotionField& motion,
+                            double invisible) {
     if (active.empty()) return;
     int reach = 0;
     if (plan.blur.variance_px2 > 0) {
@@ -131,45 +127,43 @@ void CpuCompositor::Impl::blur(const FramePlan& plan) {
     if (!plan.blur.moves) return;
     PixelRect all;
     for (const PixelRect& band : active) all = unite(all, band);
-    layer_blur.move(image, {all.x - reach, all.y - reach, all.width + 2 * reach, all.height + 2 * reach}, motion, corner);
+    layer_blur.move(image, grown(all, reach), motion, glm::dvec2(rect.x, rect.y));
   };
   // Highlights are far brighter than what lies around them; a shadow's ratio never is.
-  if (!covered.empty()) blur_one(images.color, {covered}, plan.blur.object, 1e-5);
-  blur_one(shadow, shadow_edges, plan.blur.shadow, 2e-3);
+  PixelRect covered = images.covered;
+  covered.x -= images.rect.x, covered.y -= images.rect.y;
+  if (!covered.empty()) blur_one(images.color, images.rect, {&covered, 1}, plan.blur.object, 1e-5);
+  blur_one(shadow.pixels(), shadow.rect(), shadow.sharp(), plan.blur.shadow, 2e-3);
 }
 
 /// Draws object and shadow, blurs them as the camera does, and looks for highlights that glare.
 void CpuCompositor::Impl::draw_virtual_layer(const FrameView& view, const FramePlan& plan, Composite& result) {
   pixel_rays.set_camera(view.camera, plan.distortion_limit);
-  make_images(plan);
+  make_images(view, plan);
   const bool mirrors_plate = plan.mirrors_receiver;
   clock.pass("object", [&] {
     object.draw(view, plan, pixel_rays, mirrors_plate ? &*receiver : nullptr, mirrors_plate ? &plate_light : nullptr, images);
   });
   clock.pass("receiver", [&] {
     if (receiver)
-      shadow_edges = draw_receiver(view, plan, pixel_rays, *receiver, shadow);
+      shadow.draw(view, plan, pixel_rays, *receiver);
     else
-      shadow_edges.clear(), std::ranges::fill(shadow.data, 1.0f);
+      shadow.clear();
   });
   if (!plan.blur.empty()) clock.pass("lens blur", [&] { blur(plan); });
   if (plan.seeks_glare && glare)
     clock.pass("highlights", [&] {
       const Image* emission = divides_glare() ? &images.emission : nullptr;
-      result.glare_drawn = glare->extract(images.color, emission, plan.virtual_rect, plan.frame.width, plan.frame.height);
+      result.glare_drawn = glare->extract(images.color, emission, images.rect, plan.frame.width, plan.frame.height);
     });
 }
 
 void CpuCompositor::Impl::draw_composite(const FrameView& view, const FramePlan& plan, Composite& result) {
   VirtualImages images_in_frame;
   if (plan.draws_virtual()) {
-    images_in_frame.object = &images.color, images_in_frame.object_rect = plan.virtual_rect;
+    images_in_frame.object = &images.color, images_in_frame.object_rect = images.rect;
     images_in_frame.shadow = [&](int x, int y, int count, const std::array<float*, 3>& ratio) {
-      for (int i = 0; i < count; ++i) {
-        const int u = x + i - plan.virtual_rect.x, v = y - plan.virtual_rect.y;
-        const bool inside = u >= 0 && v >= 0 && u < shadow.width && v < shadow.height;
-        for (std::size_t c = 0; c < 3; ++c) ratio[c][i] = inside ? shadow.pixel(u, v)[c] : 1;
-      }
+      shadow.read_row(x, y, count, ratio);
     };
   }
   images_in_frame.passed_at_tag = plan.passed_at_tag;
@@ -210,7 +204,7 @@ Composite CpuCompositor::Impl::render(const FrameView& view, const PlateReader& 
   result.rect = plan.output_rect(result.glare_rect);
   if (!plan.mirrors_receiver) clock.pass("plate", [&] { read_plate(view, reader, result.rect); });
   clock.pass("composite", [&] { draw_composite(view, plan, result); });
-  if (plan.makes_layers) put_object_layers(images, plan.virtual_rect, *result.layers);
+  if (plan.makes_layers) put_object_layers(images, *result.layers);
   if (plan.is_toned) apply_tone(view, plan, want_picture, result);
   return result;
 }

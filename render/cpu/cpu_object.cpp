@@ -86,8 +86,8 @@ CpuObject::Shaded CpuObject::shade(const SurfacePoint& point, const glm::vec3& m
 }
 
 /// Shades the points into their pixels. A pixel's points are shaded one after the other, on one thread.
-void CpuObject::put(const FrameView& view, const FramePlan& plan, const VisibleSurface& surface,
-                    std::span<const glm::vec3> mirrored, ObjectImages& images) const {
+void CpuObject::put(const FrameView& view, const VisibleSurface& surface, std::span<const glm::vec3> mirrored,
+                    ObjectImages& images) const {
   const PixelRect& rect = surface.rect;
   const std::vector<SurfacePoint>& points = surface.points;
   const glm::mat3 camera_from_tag(view.camera_from_tag.rotation);
@@ -100,8 +100,8 @@ void CpuObject::put(const FrameView& view, const FramePlan& plan, const VisibleS
     for (std::size_t i = pixel_from(chunk * kPointsAtOnce); i < pixel_from((chunk + 1) * kPointsAtOnce); ++i) {
       const SurfacePoint& point = points[i];
       direct_.prefetch(points[std::min(i + kFetchedAhead, points.size() - 1)]);
-      const int x = static_cast<int>(point.pixel) % rect.width + rect.x - plan.virtual_rect.x;
-      const int y = static_cast<int>(point.pixel) / rect.width + rect.y - plan.virtual_rect.y;
+      const int x = static_cast<int>(point.pixel) % rect.width + rect.x - images.rect.x;
+      const int y = static_cast<int>(point.pixel) / rect.width + rect.y - images.rect.y;
       const Shaded shaded = shade(point, mirrored[i], view.exposure);
       add(images.color.pixel(x, y), exposed(view, shaded.radiance), point.coverage);
       images.color.pixel(x, y)[3] += point.coverage;
@@ -115,19 +115,21 @@ void CpuObject::put(const FrameView& view, const FramePlan& plan, const VisibleS
   });
 }
 
+PixelRect CpuObject::covered(const FrameView& view, const FramePlan& plan) const {
+  if (bounds_.empty()) return {};
+  return intersect(visible_rect(view.camera, plan.distortion_limit, view.camera_from_tag, bounds_, kNear_m), plan.virtual_rect);
+}
+
 void CpuObject::draw(const FrameView& view, const FramePlan& plan, const PixelRays& pixel_rays, const ReceiverShadow* shadow,
                      const PlateLight* plate, ObjectImages& images) {
-  drawn_ = {};
-  if (bounds_.empty()) return;
-  drawn_ = intersect(visible_rect(view.camera, plan.distortion_limit, view.camera_from_tag, bounds_, kNear_m), plan.virtual_rect);
-  if (drawn_.empty()) return;
+  if (images.covered.empty()) return;
   around_.set_view(view, plan.distortion_limit, shadow, plate);
   VertexLight light{exit_radiance_};
   if (materials_.reflects) light.direct_over_pi = direct_.at_vertices_over_pi();
   mirror_rays_.set_frame(around_, light, view.exposure);
-  const VisibleSurface& surface = finder_.find(view, plan.distortion_limit, pixel_rays, drawn_, exit_radiance_);
+  const VisibleSurface& surface = finder_.find(view, plan.distortion_limit, pixel_rays, images.covered, exit_radiance_);
   direct_.prepare(surface.points);
-  put(view, plan, surface, mirrored_.find(surface, around_, !direct_.samples().empty()), images);
+  put(view, surface, mirrored_.find(surface, around_, !direct_.samples().empty()), images);
 }
 
 }  // namespace catchlight::render

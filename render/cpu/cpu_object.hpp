@@ -16,9 +16,10 @@
 
 namespace catchlight::render {
 
-/// What is drawn of the object, over a rectangle of the frame: premultiplied by coverage, exposed linear, in the plate's
-/// primaries.
+/// What is drawn of the object: premultiplied by coverage, exposed linear, in the plate's primaries.
 struct ObjectImages {
+  PixelRect rect;      ///< the frame's pixels that the images are
+  PixelRect covered;   ///< the box around those of them that the object covers
   Image color;         ///< RGBA
   Image reflection;    ///< RGB, the mirrored part of it; only with layers
   Image normal_depth;  ///< camera frame, metres along z, coverage; only with layers
@@ -37,20 +38,18 @@ class CpuObject {
   bool reflects() const { return materials_.reflects; }
   bool emits() const { return materials_.emits; }
 
-  /// Draws into images that are as large as the plan's rectangle. `shadow` and `plate`: what mirrors show of the receiver, or
-  /// null.
+  /// The box around the frame's pixels that the object covers, in the plan's rectangle.
+  PixelRect covered(const FrameView& view, const FramePlan& plan) const;
+
+  /// Draws into images that were made for covered(). `shadow` and `plate`: what mirrors show of the receiver, or null.
   void draw(const FrameView& view, const FramePlan& plan, const PixelRays& pixel_rays, const ReceiverShadow* shadow,
             const PlateLight* plate, ObjectImages& images);
-
-  /// The box around what the object covers of the last drawn rectangle: its pixels lie in the images' rectangle.
-  const PixelRect& drawn() const { return drawn_; }
 
  private:
   struct Shaded;
 
   Shaded shade(const SurfacePoint& point, const glm::vec3& mirrored, const glm::vec3& exposure) const;
-  void put(const FrameView& view, const FramePlan& plan, const VisibleSurface& surface, std::span<const glm::vec3> mirrored,
-           ObjectImages& images) const;
+  void put(const FrameView& view, const VisibleSurface& surface, std::span<const glm::vec3> mirrored, ObjectImages& images) const;
 
   const RenderScene& scene_;
   Bounds bounds_;
@@ -64,7 +63,6 @@ class CpuObject {
   MirrorRays mirror_rays_;
   MirroredLight mirrored_;
   std::vector<glm::vec3> exit_radiance_;
-  PixelRect drawn_;
 };
 
 }  // namespace catchlight::render

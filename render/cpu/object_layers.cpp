@@ -13,7 +13,8 @@ Layers empty_layers(const PixelRect& frame) {
   return layers;
 }
 
-void put_object_layers(const ObjectImages& images, const PixelRect& rect, Layers& layers) {
+void put_object_layers(const ObjectImages& images, Layers& layers) {
+  const PixelRect& rect = images.rect;
   for (int y = 0; y < rect.height; ++y) {
     for (int x = 0; x < rect.width; ++x) {
       const float* nz = images.normal_depth.pixel(x, y);

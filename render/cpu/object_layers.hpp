@@ -10,8 +10,7 @@ namespace catchlight::render {
 /// Layers of the whole frame without any object in them.
 Layers empty_layers(const PixelRect& frame);
 
-/// Puts reflection, normals and depth of the images' rectangle into the layers: normals of length 1 and the mean depth of what
-/// covers the pixel.
-void put_object_layers(const ObjectImages& images, const PixelRect& rect, Layers& layers);
+/// Puts reflection, normals and depth into the layers: normals of length 1 and the mean depth of what covers the pixel.
+void put_object_layers(const ObjectImages& images, Layers& layers);
 
 }  // namespace catchlight::render

@@ -1,7 +1,6 @@
 #include "render/cpu/receiver/receiver_image.hpp"
 
 #include <algorithm>
-#include <vector>
 
 #include "catchlight/util/parallel.hpp"
 #include "render/camera/clip_from_camera.hpp"
@@ -14,20 +13,27 @@ namespace {
 constexpr int kCell = 4;
 constexpr float kSmooth = 0.01f;
 
+/// Cells that hold so many pixels.
+int whole_cells(int pixels) {
+  return (pixels + kCell - 1) / kCell;
+}
+
+}  // namespace
+
 /// The shadow that the camera sees.
-class SeenShadow {
+class ReceiverImage::Seen {
  public:
-  SeenShadow(const FrameView& view, const PixelRays& pixel_rays, const ReceiverShadow& shadow)
+  Seen(const FrameView& view, const PixelRays& pixel_rays, const ReceiverShadow& shadow)
       : pixel_rays_(pixel_rays),
         shadow_(shadow),
         eye_m_(inverse(view.camera_from_tag).translation_m),
         tag_from_camera_(glm::transpose(view.camera_from_tag.rotation)) {}
 
-  Float4 at(int x, int y) const {
+  glm::vec3 at(int x, int y) const {
     const glm::vec3 direction = tag_from_camera_ * glm::vec3(pixel_rays_.at(x, y), 1.0f);
     const float depth_m = -eye_m_.z / direction.z;
-    if (!(depth_m > static_cast<float>(kNear_m))) return splat(1);
-    return float4(shadow_.ratio(glm::vec2(eye_m_) + depth_m * glm::vec2(direction)), 1);
+    if (!(depth_m > static_cast<float>(kNear_m))) return glm::vec3(1);
+    return shadow_.ratio(glm::vec2(eye_m_) + depth_m * glm::vec2(direction));
   }
 
  private:
@@ -37,56 +43,138 @@ class SeenShadow {
   glm::mat3 tag_from_camera_;
 };
 
-bool are_alike(Float4 a, Float4 b, Float4 c, Float4 d) {
-  for (int i = 0; i < 3; ++i) {
-    const float low = std::min(std::min(a[i], b[i]), std::min(c[i], d[i])),
-                high = std::max(std::max(a[i], b[i]), std::max(c[i], d[i]));
-    if (!(high - low <= kSmooth)) return false;
-  }
-  return true;
+void ReceiverImage::clear() {
+  rect_ = {};
+  sharp_.clear();
 }
 
-/// The rows of cells below each other share their corners: a row of corners ends one and begins the next.
-std::vector<Float4> corner_row(const SeenShadow& seen, const PixelRect& rect, int row) {
-  std::vector<Float4> corners;
-  for (int x = rect.x; x < rect.x + rect.width + kCell; x += kCell) corners.push_back(seen.at(x, rect.y + row * kCell));
-  return corners;
+PixelRect ReceiverImage::cell(int column, int row) const {
+  return intersect({column * kCell, row * kCell, kCell, kCell}, {0, 0, rect_.width, rect_.height});
 }
 
-}  // namespace
-
-SharpBands draw_receiver(const FrameView& view, const FramePlan& plan, const PixelRays& pixel_rays, const ReceiverShadow& shadow,
-                         Image& ratio) {
-  std::ranges::fill(ratio.data, 1.0f);
-  if (!plan.draws_receiver) return {};
-  const Bounds reach{glm::vec3(shadow.reach().min_m, 0), glm::vec3(shadow.reach().max_m, 0)};
-  const PixelRect rect =
-      intersect(visible_rect(view.camera, plan.distortion_limit, view.camera_from_tag, reach, kNear_m), plan.virtual_rect);
-  const SeenShadow seen(view, pixel_rays, shadow);
-  const int rows = (rect.height + kCell - 1) / kCell, columns = (rect.width + kCell - 1) / kCell;
-  std::vector<std::vector<Float4>> corners(static_cast<std::size_t>(rows) + 1);
-  parallel_for(corners.size(), 0, [&](std::size_t row) { corners[row] = corner_row(seen, rect, static_cast<int>(row)); });
-  SharpBands sharp(static_cast<std::size_t>(rows));
-  const auto fill_cell = [&](int row, int column) {
-    const auto above = &corners[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
-    const auto below = &corners[static_cast<std::size_t>(row) + 1][static_cast<std::size_t>(column)];
-    const PixelRect cell = intersect({rect.x + column * kCell, rect.y + row * kCell, kCell, kCell}, rect);
-    const bool alike = are_alike(above[0], above[1], below[0], below[1]);
-    if (!alike) sharp[static_cast<std::size_t>(row)] = unite(sharp[static_cast<std::size_t>(row)], cell);
-    for (int y = cell.y; y < cell.y + cell.height; ++y) {
-      const float down = static_cast<float>(y - cell.y) / kCell;
-      const Float4 left = blend(above[0], below[0], down), step = (blend(above[1], below[1], down) - left) * splat(1.0f / kCell);
-      float* pixel = ratio.pixel(cell.x - plan.virtual_rect.x, y - plan.virtual_rect.y);
-      for (int x = 0; x < cell.width; ++x, pixel += 4)
-        store(alike ? left + splat(static_cast<float>(x)) * step : seen.at(cell.x + x, y), pixel);
-    }
-  };
-  parallel_for(sharp.size(), 0, [&](std::size_t row) {
-    for (int column = 0; column < columns; ++column) fill_cell(static_cast<int>(row), column);
+bool ReceiverImage::is_smooth(int column, int row) const {
+  const std::size_t above = corner(column, row), below = corner(column, row + 1);
+  return std::ranges::all_of(corners_, [&](const std::vector<float>& c) {
+    const auto [low, high] = std::minmax({c[above], c[above + 1], c[below], c[below + 1]});
+    return high - low <= kSmooth;
   });
-  std::erase_if(sharp, [](const PixelRect& band) { return band.empty(); });
-  for (PixelRect& band : sharp) band.x -= plan.virtual_rect.x, band.y -= plan.virtual_rect.y;
-  return sharp;
+}
+
+void ReceiverImage::find_sharp() {
+  sharp_cells_.assign(static_cast<std::size_t>(rows_), {});
+  parallel_for(sharp_cells_.size(), 0, [&](std::size_t row) {
+    Span& span = sharp_cells_[row];
+    for (int column = 0; column < columns_; ++column) {
+      if (is_smooth(column, static_cast<int>(row))) continue;
+      if (span.end == 0) span.begin = column;
+      span.end = column + 1;
+    }
+  });
+  sharp_.clear();
+  for (int row = 0; row < rows_; ++row) {
+    const Span& span = sharp_cells_[static_cast<std::size_t>(row)];
+    if (span.end > 0) sharp_.push_back(unite(cell(span.begin, row), cell(span.end - 1, row)));
+  }
+}
+
+std::vector<ReceiverImage::Span> ReceiverImage::around_sharp(int margin_px) const {
+  const int margin = whole_cells(margin_px);
+  std::vector<Span> around(sharp_cells_.size());
+  for (int row = 0; row < rows_; ++row) {
+    const Span& sharp = sharp_cells_[static_cast<std::size_t>(row)];
+    if (sharp.end == 0) continue;
+    const int left = std::max(sharp.begin - margin, 0), right = std::min(sharp.end + margin, columns_);
+    for (int near = std::max(row - margin, 0); near <= std::min(row + margin, rows_ - 1); ++near) {
+      Span& span = around[static_cast<std::size_t>(near)];
+      span = span.end == 0 ? Span{left, right} : Span{std::min(span.begin, left), std::max(span.end, right)};
+    }
+  }
+  return around;
+}
+
+void ReceiverImage::draw_cell(const Seen& seen, int column, int row) {
+  const PixelRect pixels = cell(column, row);
+  std::array<std::array<float, kCell>, 3> line;
+  const bool smooth = is_smooth(column, row);
+  for (int y = pixels.y; y < pixels.y + pixels.height; ++y) {
+    if (smooth) interpolate(pixels.x, y, pixels.width, {line[0].data(), line[1].data(), line[2].data()});
+    for (int x = 0; x < pixels.width; ++x) {
+      const auto i = static_cast<std::size_t>(x);
+      store(smooth ? Float4{line[0][i], line[1][i], line[2][i], 1} : float4(seen.at(rect_.x + pixels.x + x, rect_.y + y), 1),
+            pixels_.pixel(pixels.x + x, y));
+    }
+  }
+}
+
+void ReceiverImage::draw(const FrameView& view, const FramePlan& plan, const PixelRays& pixel_rays,
+                         const ReceiverShadow& shadow) {
+  clear();
+  if (!plan.draws_receiver) return;
+  const Bounds reach{glm::vec3(shadow.reach().min_m, 0), glm::vec3(shadow.reach().max_m, 0)};
+  const PixelRect seen_reach = visible_rect(view.camera, plan.distortion_limit, view.camera_from_tag, reach, kNear_m);
+  const int reach_px = plan.blur.reach_px(seen_reach);
+  rect_ = intersect(grown(seen_reach, whole_cells(reach_px) * kCell), plan.virtual_rect);
+  if (rect_.empty()) return clear();
+  columns_ = whole_cells(rect_.width), rows_ = whole_cells(rect_.height);
+  for (std::vector<float>& plane : corners_) plane.resize(static_cast<std::size_t>(rows_ + 1) * (columns_ + 1));
+  const Seen seen(view, pixel_rays, shadow);
+  parallel_for(static_cast<std::size_t>(rows_) + 1, 0, [&](std::size_t row) {
+    for (int column = 0; column <= columns_; ++column) {
+      const glm::vec3 ratio = seen.at(rect_.x + column * kCell, rect_.y + static_cast<int>(row) * kCell);
+      for (std::size_t c = 0; c < 3; ++c) corners_[c][corner(column, static_cast<int>(row))] = ratio[static_cast<int>(c)];
+    }
+  });
+  find_sharp();
+  blurred_ = around_sharp(reach_px);
+  const std::vector<Span> drawn = around_sharp(2 * reach_px);  // what the blurred pixels are made of
+  pixels_.width = rect_.width, pixels_.height = rect_.height, pixels_.channels = 4;
+  pixels_.data.resize(static_cast<std::size_t>(rect_.width) * rect_.height * 4);
+  parallel_for(drawn.size(), 0, [&](std::size_t row) {
+    for (int column = drawn[row].begin; column < drawn[row].end; ++column) draw_cell(seen, column, static_cast<int>(row));
+  });
+}
+
+/// From the cells' corners; (x, y) and what follows lie in `rect`.
+void ReceiverImage::interpolate(int x, int y, int count, const std::array<float*, 3>& ratio) const {
+  const float down = static_cast<float>(y % kCell) / kCell;
+  const std::size_t above = corner(x / kCell, y / kCell), below = above + static_cast<std::size_t>(columns_ + 1);
+  const auto at_row = [&](const std::vector<float>& c, std::size_t i) {
+    return c[above + i] + (c[below + i] - c[above + i]) * down;
+  };
+  for (std::size_t c = 0; c < 3; ++c) {
+    float* to = ratio[c];
+    float left = at_row(corners_[c], 0);
+    int across = x % kCell;
+    for (int cell = 0, i = 0; i < count; ++cell, across = 0) {
+      const float right = at_row(corners_[c], static_cast<std::size_t>(cell) + 1), step = (right - left) * (1.0f / kCell);
+      if (across == 0 && i + kCell <= count) {
+        store(splat(left) + Float4{0, 1, 2, 3} * splat(step), to + i);
+        i += kCell;
+      } else {
+        for (; across < kCell && i < count; ++across, ++i) to[i] = left + static_cast<float>(across) * step;
+      }
+      left = right;
+    }
+  }
+}
+
+void ReceiverImage::read_row(int x, int y, int count, const std::array<float*, 3>& ratio) const {
+  const PixelRect there = intersect({x, y, count, 1}, rect_);
+  if (there.empty() || there.width < count)
+    for (float* plane : ratio) std::fill_n(plane, count, 1.0f);
+  if (there.empty()) return;
+  const int row = y - rect_.y, begin = there.x - rect_.x, end = begin + there.width;
+  const Span& blurred = blurred_[static_cast<std::size_t>(row / kCell)];
+  const int first = std::clamp(blurred.begin * kCell, begin, end), last = std::clamp(blurred.end * kCell, first, end);
+  const auto from = [&](int column) {
+    const int i = column + rect_.x - x;
+    return std::array{ratio[0] + i, ratio[1] + i, ratio[2] + i};
+  };
+  if (first > begin) interpolate(begin, row, first - begin, from(begin));
+  if (end > last) interpolate(last, row, end - last, from(last));
+  const std::array<float*, 3> to = from(first);
+  for (int i = 0; i < last - first; ++i)
+    for (std::size_t c = 0; c < 3; ++c) to[c][i] = pixels_.pixel(first + i, row)[c];
 }
 
 }  // namespace catchlight::render

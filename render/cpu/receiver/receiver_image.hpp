@@ -1,6 +1,7 @@
 // The receiver's shadow as the camera sees it.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "catchlight/image.hpp"
@@ -11,12 +12,47 @@
 
 namespace catchlight::render {
 
-/// Rectangles of an image's pixels, a band of rows each, that together hold where a shadow's edges are sharp.
-using SharpBands = std::vector<PixelRect>;
+/// The ratio of shadowed to unshadowed light in the pixels of a rectangle, and 1 around it. Where it changes slowly it is kept at
+/// the corners of cells and interpolated, and no blur shows; pixels are kept around where it does not.
+class ReceiverImage {
+ public:
+  /// Draws the shadow over the plan's rectangle.
+  void draw(const FrameView& view, const FramePlan& plan, const PixelRays& pixel_rays, const ReceiverShadow& shadow);
 
-/// Draws the ratio of shadowed to unshadowed light into an image of the plan's rectangle with four channels; 1 where there is no
-/// shadow. Where it changes slowly it is interpolated, and no blur shows: gives the pixels of the image where it does not.
-SharpBands draw_receiver(const FrameView& view, const FramePlan& plan, const PixelRays& pixel_rays, const ReceiverShadow& shadow,
-                         Image& ratio);
+  /// There is no shadow anywhere.
+  void clear();
+
+  /// The frame's pixels that `pixels` are.
+  const PixelRect& rect() const { return rect_; }
+  /// Bands of `pixels`, below each other, that hold where the shadow is sharp. Around them as much is drawn as the plan's blur
+  /// reads; the rest of `pixels` holds nothing.
+  const std::vector<PixelRect>& sharp() const { return sharp_; }
+  /// Four channels, to be blurred.
+  Image& pixels() { return pixels_; }
+
+  /// Writes the ratio of the frame's pixels (x, y) to (x + count - 1, y), a plane a channel. May be called from several threads.
+  void read_row(int x, int y, int count, const std::array<float*, 3>& ratio) const;
+
+ private:
+  class Seen;
+  struct Span {
+    int begin = 0, end = 0;
+  };
+
+  std::size_t corner(int column, int row) const { return static_cast<std::size_t>(row) * (columns_ + 1) + column; }
+  PixelRect cell(int column, int row) const;
+  bool is_smooth(int column, int row) const;
+  void find_sharp();
+  std::vector<Span> around_sharp(int margin_px) const;
+  void draw_cell(const Seen& seen, int column, int row);
+  void interpolate(int x, int y, int count, const std::array<float*, 3>& ratio) const;
+
+  PixelRect rect_;
+  int columns_ = 0, rows_ = 0;                 ///< cells
+  std::array<std::vector<float>, 3> corners_;  ///< a plane a channel
+  std::vector<Span> sharp_cells_, blurred_;    ///< columns of cells, a row of them each; the latter are read from `pixels`
+  std::vector<PixelRect> sharp_;
+  Image pixels_;
+};
 
 }  // namespace catchlight::render
