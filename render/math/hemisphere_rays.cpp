@@ -133,7 +133,8 @@ glm::dvec2 scrambled_sobol(std::uint32_t k, std::uint32_t seed) {
   return {x * 0x1p-32, y * 0x1p-32};
 }
 
-HemisphereRays::HemisphereRays(int count) : second_(count), x_(count), y_(count), sorted_x_(count), sorted_y_(count) {
+HemisphereRays::HemisphereRays(int count)
+    : second_(count), x_(count), y_(count), sorted_x_(count), sorted_y_(count), sorted_k_(count) {
   const int bits = std::bit_width(static_cast<unsigned>(count / kRaysPerCell + 1)) - 1;
   cell_bits_y_ = std::min((bits + 2) / 2, bits);  // the azimuth goes once round
   cell_bits_x_ = bits - cell_bits_y_;
@@ -141,7 +142,7 @@ HemisphereRays::HemisphereRays(int count) : second_(count), x_(count), y_(count)
   for (int k = 0; k < count; ++k) second_[k] = reversed(sobol_second(k));
 }
 
-// Sets sorted_x_ and sorted_y_, in units of 2^-32, cell by cell.
+// Sets sorted_x_ and sorted_y_, in units of 2^-32, and sorted_k_, cell by cell.
 void HemisphereRays::scatter(std::uint32_t seed) {
   scramble(second_, mix_bits(seed), mix_bits(seed ^ kSecondSeed), x_, y_);
   const auto cell = [this](std::size_t k) {
@@ -153,7 +154,7 @@ void HemisphereRays::scatter(std::uint32_t seed) {
   for (std::size_t i = 1; i < cell_begin_.size(); ++i) cell_begin_[i] += cell_begin_[i - 1];
   for (std::size_t k = 0; k < x_.size(); ++k) {
     const std::uint32_t at = cell_begin_[cell(k)]++;
-    sorted_x_[at] = x_[k], sorted_y_[at] = y_[k];
+    sorted_x_[at] = x_[k], sorted_y_[at] = y_[k], sorted_k_[at] = static_cast<std::uint32_t>(k);
   }
 }
 

@@ -35,6 +35,9 @@ class HemisphereRays {
 
   /// Density cos / pi around `normal`.
   void fill_hemisphere(const glm::vec3& normal, std::uint32_t seed, const Directions& out);
+  /// Which point of the sequence each direction last filled in is. The first 2^n of them are low-discrepancy by themselves.
+  std::span<const std::uint32_t> numbers() const { return sorted_k_; }
+
   /// Uniform within the angle of that cosine around `axis`.
   void fill_cone(const glm::vec3& axis, double cos_cone, std::uint32_t seed, const Directions& out);
 
@@ -43,7 +46,7 @@ class HemisphereRays {
 
   int cell_bits_x_, cell_bits_y_;      ///< rays are sorted into 2^bits by 2^bits cells of the unit square
   std::vector<std::uint32_t> second_;  ///< Sobol's second dimension, bits reversed
-  std::vector<std::uint32_t> x_, y_, sorted_x_, sorted_y_, cell_begin_;
+  std::vector<std::uint32_t> x_, y_, sorted_x_, sorted_y_, sorted_k_, cell_begin_;
 };
 
 }  // namespace catchlight::render

@@ -25,10 +25,11 @@ std::vector<glm::vec3> diffuse_albedos(const Mesh& mesh) {
   return albedo;
 }
 
-void link_surfaces(const PointRays& point_rays, LightLinks& links) {
+/// Links those rays that are among the first, or those that are not.
+void link_surfaces(const PointRays& point_rays, int first, bool is_first, LightLinks& links) {
   const RayStream& rays = point_rays.rays();
   for (std::size_t k = 0; k < rays.size(); ++k) {
-    if (!rays.meets(k) || !rays.is_front_facing(k)) continue;
+    if (!rays.meets(k) || !rays.is_front_facing(k) || point_rays.is_among_first(k, first) != is_first) continue;
     const float share = point_rays.weights()[k], u = rays.u[k], v = rays.v[k];
     links.add_surface({rays.triangle[k], {share * (1 - u - v), share * u, share * v}});
   }
@@ -69,17 +70,22 @@ void BakePoints::for_rays_to_receiver(const PointRays& point_rays, const Visit& 
   }
 }
 
-void BakePoints::link_vertex(const PointRays& rays, LightLinks& links) const {
-  link_surfaces(rays, links);
-  for_rays_to_receiver(rays, [&](const glm::vec2& place_m, std::size_t k) {
-    if (const auto p = grid_.nearest(place_m)) links.add_receiver(*p, rays.weights()[k]);
-  });
-  links.end_point();
+void BakePoints::link_vertex(const PointRays& rays, int first, LightLinks& links) const {
+  for (const bool is_first : {true, false}) {
+    link_surfaces(rays, first, is_first, links);
+    for_rays_to_receiver(rays, [&](const glm::vec2& place_m, std::size_t k) {
+      if (rays.is_among_first(k, first) != is_first) return;
+      if (const auto p = grid_.nearest(place_m)) links.add_receiver(*p, rays.weights()[k]);
+    });
+    links.end_part();
+  }
 }
 
-void BakePoints::link_receiver(const PointRays& rays, LightLinks& links) const {
-  link_surfaces(rays, links);
-  links.end_point();
+void BakePoints::link_receiver(const PointRays& rays, int first, LightLinks& links) const {
+  for (const bool is_first : {true, false}) {
+    link_surfaces(rays, first, is_first, links);
+    links.end_part();
+  }
 }
 
 glm::vec3 BakePoints::receiver_correction(const PointRays& rays) const {

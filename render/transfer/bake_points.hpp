@@ -28,9 +28,9 @@ class BakePoints {
   void send_from_receiver(std::size_t p, PointRays& rays) const;
 
   /// Adds what the point sees whose rays these are: front faces (the inside of a solid is dark), and of a vertex the receiver
-  /// too.
-  void link_vertex(const PointRays& rays, LightLinks& links) const;
-  void link_receiver(const PointRays& rays, LightLinks& links) const;
+  /// too. The first part is what the first so many rays see.
+  void link_vertex(const PointRays& rays, int first, LightLinks& links) const;
+  void link_receiver(const PointRays& rays, int first, LightLinks& links) const;
 
   /// The light counts what the probe saw below the plane as infinitely far away and open to the sky: this takes that out, for
   /// what a vertex meets where the plane is. Both are shares of the light that reaches the plane, so no sharp horizon has to be

@@ -28,6 +28,9 @@ class PointRays {
   /// The weights of the rays: their sum over a whole hemisphere is 1.
   std::span<const float> weights() const { return weight_; }
 
+  /// Whether a ray is one of the first that so many would be: those alone sample what they all do.
+  bool is_among_first(std::size_t k, int count) const { return directions_.numbers()[k] < static_cast<std::uint32_t>(count); }
+
   /// Adds weight * y_i(direction) of the rays that met something to sums[i], for all bands.
   void add_blocked_light(int bands, std::span<float> sums);
 

@@ -84,11 +84,13 @@ class Baker {
     done_ += static_cast<double>(points);
   }
 
-  int rays_of(int bounce) const { return std::max(options_.rays >> (2 * bounce), std::min(options_.rays, kMinRays)); }
+  // The first of a point's rays, which do for what is left after the first bounce.
+  int first_rays() const { return std::max(options_.rays / 4, std::min(options_.rays, kMinRays)); }
+  int rays_of(int bounce) const { return bounce == 0 ? options_.rays : first_rays(); }
 
-  // Whether links of so many points are kept that were found by this many rays, for a bounce that uses as many.
+  // Whether the links of so many points that this many rays found are kept for a bounce.
   bool keeps_for(int bounce, int rays, std::size_t points) const {
-    return bounce < options_.bounces && rays_of(bounce) == rays && points * static_cast<std::size_t>(rays) <= kMaxKeptRays;
+    return bounce < options_.bounces && points * static_cast<std::size_t>(rays) <= kMaxKeptRays;
   }
 
   // Fills object_direct. Returns which vertices lie within another part.
@@ -102,17 +104,21 @@ class Baker {
       PointRays rays(points_.scene(), options_.rays);
       for (std::size_t v = begin; v < end; ++v) {
         if (is_dark(v)) {
-          if (to_object_.rays > 0) to_object_.tasks[task].end_point();
+          if (to_object_.rays > 0) leave_empty(to_object_.tasks[task]);
           continue;
         }
         points_.send_from_vertex(v, rays);
         is_interior[v] = looks_at_backs(rays.rays());
         bake_direct(v, rays);
         correction_[v] = points_.receiver_correction(rays);
-        if (to_object_.rays > 0) points_.link_vertex(rays, to_object_.tasks[task]);
+        if (to_object_.rays > 0) points_.link_vertex(rays, first_rays(), to_object_.tasks[task]);
       }
     });
     return is_interior;
+  }
+
+  static void leave_empty(LightLinks& links) {
+    for (int part = 0; part < 2; ++part) links.end_part();
   }
 
   bool is_dark(std::size_t v) const { return points_.albedo()[v] == glm::vec3(0); }
@@ -154,7 +160,7 @@ class Baker {
         rays.add_blocked_light(options_.bands, std::span(blocked).first(count_));
         const std::span<glm::vec3> out = coefficients(transfer_.receiver_direct, p);
         for (int i = 0; i < count_; ++i) out[i] = glm::vec3(transfer_.receiver_unshadowed[i] - blocked[i]);
-        if (to_receiver_.rays > 0) points_.link_receiver(rays, to_receiver_.tasks[task]);
+        if (to_receiver_.rays > 0) points_.link_receiver(rays, first_rays(), to_receiver_.tasks[task]);
       }
     });
     const std::vector<glm::vec3> unshadowed(transfer_.receiver_unshadowed.begin(), transfer_.receiver_unshadowed.end());
@@ -207,11 +213,15 @@ class Baker {
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += more[i];
   }
 
-  // Calls link(point, rays, links) for points whose links are not kept, then use(point, links, number among the links), and keeps
-  // the links where the next bounce has as many rays.
+  // Calls link(point, rays, links) for points whose links are not kept, then use(point, gather), where gather(object, receiver,
+  // out) adds what they send to what arrives there. Keeps the links for the next bounce where they fit.
   template <typename Link, typename Use>
   void for_linked(int bounce, std::size_t points, KeptLinks& kept, const Link& link, const Use& use) {
-    const bool is_kept = kept.rays == rays_of(bounce), keeps = keeps_for(bounce + 1, rays_of(bounce), points);
+    const bool is_kept = kept.rays > 0;
+    if (!is_kept) kept.rays = rays_of(bounce);
+    const bool keeps = keeps_for(bounce + 1, kept.rays, points);
+    const std::size_t parts = bounce == 0 ? 2 : 1;
+    const float factor = static_cast<float>(kept.rays) / static_cast<float>(rays_of(bounce));
     for_tasks(points, [&](std::size_t begin, std::size_t end, std::size_t task) {
       LightLinks& links = kept.tasks[task];
       if (!is_kept) {
@@ -219,23 +229,26 @@ class Baker {
         PointRays rays(points_.scene(), rays_of(bounce));
         for (std::size_t i = begin; i < end; ++i) link(i, rays, links);
       }
-      for (std::size_t i = begin; i < end; ++i) use(i, links, i - begin);
+      for (std::size_t i = begin; i < end; ++i)
+        use(i, [&](const auto& from_object, const auto& from_receiver, std::span<glm::vec3> out) {
+          links.gather(i - begin, parts, factor, mesh_.indices, from_object, from_receiver, out);
+        });
       if (!keeps) links = {};
     });
-    kept.rays = keeps ? rays_of(bounce) : 0;
+    if (!keeps) kept.rays = 0;
   }
 
   // Gathers what leaves the vertices of the light that front faces and the receiver sent in their direction.
   void gather_at_vertices(int bounce, const std::vector<glm::vec3>& sent, const std::vector<glm::vec3>& sent_up,
                           std::vector<glm::vec3>& next) {
     const auto link = [&](std::size_t v, PointRays& rays, LightLinks& links) {
-      if (is_dark(v)) return links.end_point();
+      if (is_dark(v)) return leave_empty(links);
       points_.send_from_vertex(v, rays);
-      points_.link_vertex(rays, links);
+      points_.link_vertex(rays, first_rays(), links);
     };
-    for_linked(bounce, points_.vertices(), to_object_, link, [&](std::size_t v, const LightLinks& links, std::size_t number) {
+    for_linked(bounce, points_.vertices(), to_object_, link, [&](std::size_t v, const auto& gather) {
       const std::span<glm::vec3> out = coefficients(next, v);
-      links.gather(number, mesh_.indices, sent, sent_up, out);
+      gather(sent, sent_up, out);
       for (int i = 0; bounce == 0 && i < count_; ++i) out[i] += transfer_.receiver_unshadowed[i] * correction_[v];
       for (glm::vec3& value : out) value *= points_.albedo()[v];
     });
@@ -245,11 +258,10 @@ class Baker {
   void gather_on_receiver(int bounce, const std::vector<glm::vec3>& sent, std::vector<glm::vec3>& on_receiver) {
     const auto link = [&](std::size_t p, PointRays& rays, LightLinks& links) {
       points_.send_from_receiver(p, rays);
-      points_.link_receiver(rays, links);
+      points_.link_receiver(rays, first_rays(), links);
     };
-    for_linked(bounce, grid_.points(), to_receiver_, link, [&](std::size_t p, const LightLinks& links, std::size_t number) {
-      links.gather(number, mesh_.indices, sent, {}, coefficients(on_receiver, p));
-    });
+    for_linked(bounce, grid_.points(), to_receiver_, link,
+               [&](std::size_t p, const auto& gather) { gather(sent, std::vector<glm::vec3>(), coefficients(on_receiver, p)); });
   }
 
   // The light that each of the receiver's points sends back.

@@ -87,6 +87,24 @@ TEST(HemisphereRays, AreThePointsOfTheSequenceInAnotherOrder) {
   }
 }
 
+TEST(HemisphereRays, TheFirstAreThoseOfFewerRays) {
+  constexpr int kMany = 512, kFew = 128;
+  Rays many(kMany), few(kFew);
+  HemisphereRays of_many(kMany), of_few(kFew);
+  of_many.fill_hemisphere({0.6f, 0, 0.8f}, 11, many.lanes());
+  of_few.fill_hemisphere({0.6f, 0, 0.8f}, 11, few.lanes());
+  std::vector<glm::vec3> by_number(kFew);
+  for (int i = 0; i < kFew; ++i) by_number[of_few.numbers()[i]] = few.direction(i);
+  int found = 0;
+  for (int i = 0; i < kMany; ++i) {
+    const std::uint32_t number = of_many.numbers()[i];
+    if (number >= kFew) continue;
+    EXPECT_EQ(many.direction(i), by_number[number]);
+    ++found;
+  }
+  EXPECT_EQ(found, kFew);
+}
+
 TEST(HemisphereRays, NeighboursGoTheSameWay) {
   Rays rays(1024);
   HemisphereRays(1024).fill_hemisphere({0, 0, 1}, 5, rays.lanes());
