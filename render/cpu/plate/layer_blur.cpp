@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "catchlight/util/parallel.hpp"
+#include "render/math/float4.hpp"
 
 namespace catchlight::render {
 namespace {
+
+constexpr int kChannels = 4;
 
 PixelRect grown(const PixelRect& rect, int across, int down, const Image& image) {
   return intersect({rect.x - across, rect.y - down, rect.width + 2 * across, rect.height + 2 * down},
@@ -56,15 +58,32 @@ Float4 mean_along(const Image& image, int x, int y, const MotionTaps& taps) {
   return sum;
 }
 
-void blur_row(const Image& image, const PixelRect& row, const std::vector<float>& weights, Float4* to) {
+/// to[i] += weight * (a[i] + b[i])
+[[gnu::target_clones("avx2", "default")]] void add_pair(int count, float weight, const float* __restrict a,
+                                                        const float* __restrict b, float* __restrict to) {
+  for (int i = 0; i < count; ++i) to[i] += weight * (a[i] + b[i]);
+}
+
+[[gnu::target_clones("avx2", "default")]] void set_scaled(int count, float weight, const float* __restrict from,
+                                                          float* __restrict to) {
+  for (int i = 0; i < count; ++i) to[i] = weight * from[i];
+}
+
+/// Of `row`, whose first and last pixels go on beyond the image.
+void blur_row(const Image& image, const PixelRect& row, const std::vector<float>& weights, float* to) {
   const int reach = static_cast<int>(weights.size()) - 1;
-  for (int x = row.x; x < row.x + row.width; ++x) {
-    Float4 sum = splat(weights[0]) * load(image.pixel(x, row.y));
-    for (int i = 1; i <= reach; ++i)
-      sum += splat(weights[i]) *
-             (load(image.pixel(std::min(x + i, image.width - 1), row.y)) + load(image.pixel(std::max(x - i, 0), row.y)));
-    *to++ = sum;
+  thread_local std::vector<float> padded;
+  padded.resize(static_cast<std::size_t>(kChannels) * (row.width + 2 * reach));
+  for (int x = row.x - reach; x < row.x + row.width + reach; ++x) {
+    if (x >= 0 && x < image.width) continue;
+    std::copy_n(image.pixel(std::clamp(x, 0, image.width - 1), row.y), kChannels, &padded[kChannels * (x - row.x + reach)]);
   }
+  const int first = std::max(row.x - reach, 0), last = std::min(row.x + row.width + reach, image.width);
+  std::copy_n(image.pixel(first, row.y), kChannels * (last - first), &padded[kChannels * (first - row.x + reach)]);
+  const float* middle = &padded[static_cast<std::size_t>(kChannels) * reach];
+  set_scaled(kChannels * row.width, weights[0], middle, to);
+  for (int i = 1; i <= reach; ++i)
+    add_pair(kChannels * row.width, weights[static_cast<std::size_t>(i)], middle + kChannels * i, middle - kChannels * i, to);
 }
 
 }  // namespace
@@ -83,7 +102,8 @@ void LayerBlur::defocus(Image& image, std::span<const PixelRect> active, const s
   if (all.empty()) return;
   // Rows into the scratch, which has `reach` rows more above and below, then columns back.
   const PixelRect read = grown(all, 0, reach, image);
-  scratch_.resize(static_cast<std::size_t>(read.width) * read.height);
+  scratch_.resize(static_cast<std::size_t>(kChannels) * read.width * read.height);
+  const auto scratch_row = [&](int y) { return &scratch_[static_cast<std::size_t>(kChannels) * (y - read.y) * read.width]; };
   for_rows(read, [&](int y) {
     PixelRect row;
     for (int near = std::max(y - reach, 0); near <= std::min(y + reach, image.height - 1); ++near) {
@@ -91,19 +111,15 @@ void LayerBlur::defocus(Image& image, std::span<const PixelRect> active, const s
       wanted.y = y;
       row = unite(row, wanted);
     }
-    blur_row(image, row, weights, &scratch_[static_cast<std::size_t>(y - read.y) * read.width + (row.x - read.x)]);
+    if (!row.empty()) blur_row(image, row, weights, scratch_row(y) + kChannels * (row.x - read.x));
   });
   for_rows(all, [&](int y) {
     const PixelRect& row = rows[static_cast<std::size_t>(y)];
-    for (int x = row.x; x < row.x + row.width; ++x) {
-      const auto at = [&](int from) {
-        const int inside = std::clamp(from, 0, image.height - 1);
-        return scratch_[static_cast<std::size_t>(inside - read.y) * read.width + (x - read.x)];
-      };
-      Float4 sum = splat(weights[0]) * at(y);
-      for (int i = 1; i <= reach; ++i) sum += splat(weights[i]) * (at(y + i) + at(y - i));
-      store(sum, image.pixel(x, y));
-    }
+    if (row.empty()) return;
+    const auto at = [&](int from) { return scratch_row(std::clamp(from, 0, image.height - 1)) + kChannels * (row.x - read.x); };
+    set_scaled(kChannels * row.width, weights[0], at(y), image.pixel(row.x, y));
+    for (int i = 1; i <= reach; ++i)
+      add_pair(kChannels * row.width, weights[static_cast<std::size_t>(i)], at(y + i), at(y - i), image.pixel(row.x, y));
   });
 }
 
@@ -116,15 +132,14 @@ void LayerBlur::move(Image& image, const PixelRect& active, const MotionField& m
   const int reach = static_cast<int>(std::ceil(std::min(longest, kMaxMotion_px))) + 2;
   const PixelRect all = grown(active, reach, reach, image);
   if (all.empty()) return;
-  scratch_.resize(static_cast<std::size_t>(all.width) * all.height);
+  scratch_.resize(static_cast<std::size_t>(kChannels) * all.width * all.height);
+  const auto scratch_row = [&](int y) { return &scratch_[static_cast<std::size_t>(kChannels) * (y - all.y) * all.width]; };
   for_rows(all, [&](int y) {
     for (int x = all.x; x < all.x + all.width; ++x)
-      scratch_[static_cast<std::size_t>(y - all.y) * all.width + (x - all.x)] =
-          mean_along(image, x, y, MotionTaps(glm::vec2(motion.at(corner_px + glm::dvec2(x, y)))));
+      store(mean_along(image, x, y, MotionTaps(glm::vec2(motion.at(corner_px + glm::dvec2(x, y))))),
+            scratch_row(y) + kChannels * (x - all.x));
   });
-  for_rows(all, [&](int y) {
-    std::memcpy(image.pixel(all.x, y), &scratch_[static_cast<std::size_t>(y - all.y) * all.width], all.width * sizeof(Float4));
-  });
+  for_rows(all, [&](int y) { std::copy_n(scratch_row(y), kChannels * all.width, image.pixel(all.x, y)); });
 }
 
 }  // namespace catchlight::render

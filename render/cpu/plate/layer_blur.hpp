@@ -7,7 +7,6 @@
 #include "catchlight/image.hpp"
 #include "catchlight/pixel_rect.hpp"
 #include "render/camera/camera_blur.hpp"
-#include "render/math/float4.hpp"
 
 namespace catchlight::render {
 
@@ -22,7 +21,7 @@ class LayerBlur {
   void move(Image& image, const PixelRect& active, const MotionField& motion, const glm::dvec2& corner_px);
 
  private:
-  std::vector<Float4> scratch_;
+  std::vector<float> scratch_;
 };
 
 }  // namespace catchlight::render

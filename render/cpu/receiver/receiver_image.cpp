@@ -1,6 +1,7 @@
 #include "render/cpu/receiver/receiver_image.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "catchlight/util/parallel.hpp"
 #include "render/camera/clip_from_camera.hpp"
@@ -29,12 +30,15 @@ class ReceiverImage::Seen {
         eye_m_(inverse(view.camera_from_tag).translation_m),
         tag_from_camera_(glm::transpose(view.camera_from_tag.rotation)) {}
 
-  glm::vec3 at(int x, int y) const {
+  /// The place on the plane that a pixel sees. NaN where it sees none, which has no shadow.
+  glm::vec2 place_m(int x, int y) const {
     const glm::vec3 direction = tag_from_camera_ * glm::vec3(pixel_rays_.at(x, y), 1.0f);
     const float depth_m = -eye_m_.z / direction.z;
-    if (!(depth_m > static_cast<float>(kNear_m))) return glm::vec3(1);
-    return shadow_.ratio(glm::vec2(eye_m_) + depth_m * glm::vec2(direction));
+    if (!(depth_m > static_cast<float>(kNear_m))) return glm::vec2(std::numeric_limits<float>::quiet_NaN());
+    return glm::vec2(eye_m_) + depth_m * glm::vec2(direction);
   }
+
+  glm::vec3 at(int x, int y) const { return shadow_.ratio(place_m(x, y)); }
 
  private:
   const PixelRays& pixel_rays_;
@@ -119,9 +123,16 @@ void ReceiverImage::draw(const FrameView& view, const FramePlan& plan, const Pix
   for (std::vector<float>& plane : corners_) plane.resize(static_cast<std::size_t>(rows_ + 1) * (columns_ + 1));
   const Seen seen(view, pixel_rays, shadow);
   parallel_for(static_cast<std::size_t>(rows_) + 1, 0, [&](std::size_t row) {
+    // The texels lie far apart: all are fetched before the first is waited for.
+    thread_local std::vector<glm::vec2> places_m;
+    places_m.clear();
     for (int column = 0; column <= columns_; ++column) {
-      const glm::vec3 ratio = seen.at(rect_.x + column * kCell, rect_.y + static_cast<int>(row) * kCell);
-      for (std::size_t c = 0; c < 3; ++c) corners_[c][corner(column, static_cast<int>(row))] = ratio[static_cast<int>(c)];
+      places_m.push_back(seen.place_m(rect_.x + column * kCell, rect_.y + static_cast<int>(row) * kCell));
+      shadow.prefetch(places_m.back());
+    }
+    for (std::size_t column = 0; column < places_m.size(); ++column) {
+      const glm::vec3 ratio = shadow.ratio(places_m[column]);
+      for (std::size_t c = 0; c < 3; ++c) corners_[c][row * places_m.size() + column] = ratio[static_cast<int>(c)];
     }
   });
   find_sharp();

@@ -156,6 +156,15 @@ void ReceiverShadow::crop() {
   ratio_ = std::move(kept);
 }
 
+void ReceiverShadow::prefetch(const glm::vec2& place_m) const {
+  const glm::vec2 texel = (place_m - reach_.min_m) * texels_per_m_ - 0.5f;
+  if (!(texel.x > 0 && texel.y > 0 && texel.x < static_cast<float>(size_.x - 1) && texel.y < static_cast<float>(size_.y - 1)))
+    return;
+  const Texel* first = &ratio_[static_cast<std::size_t>(texel.y) * size_.x + static_cast<std::size_t>(texel.x)];
+  __builtin_prefetch(first);
+  __builtin_prefetch(first + size_.x);
+}
+
 glm::vec3 ReceiverShadow::ratio(const glm::vec2& place_m) const {
   const glm::vec2 texel = (place_m - reach_.min_m) * texels_per_m_;
   if (!(texel.x > 0 && texel.y > 0 && texel.x < static_cast<float>(size_.x) && texel.y < static_cast<float>(size_.y)))

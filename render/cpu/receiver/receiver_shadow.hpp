@@ -30,7 +30,10 @@ class ReceiverShadow {
   /// The part of the plane where the ratio differs from 1 by more than can be seen.
   const PlaneRect& reach() const { return reach_; }
 
-  /// The ratio at a place of the plane (tag x, y); 1 beyond the reach.
+  /// Begins to bring to the processor what ratio() will need.
+  void prefetch(const glm::vec2& place_m) const;
+
+  /// The ratio at a place of the plane (tag x, y); 1 beyond the reach, and where the place is NaN.
   glm::vec3 ratio(const glm::vec2& place_m) const;
 
  private:
