@@ -1,6 +1,7 @@
 #include "render/cpu/receiver/receiver_image.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "catchlight/util/parallel.hpp"
@@ -10,9 +11,10 @@
 namespace catchlight::render {
 namespace {
 
-/// Pixels along a cell, which is interpolated between its corners where these differ by no more than kSmooth.
+/// Pixels along a cell. It is interpolated where the shadow goes on evenly: the second differences at its corners are eight times
+/// what that may miss.
 constexpr int kCell = 4;
-constexpr float kSmooth = 0.01f;
+constexpr float kBend = 0.016f;
 
 /// Cells that hold so many pixels.
 int whole_cells(int pixels) {
@@ -56,15 +58,29 @@ PixelRect ReceiverImage::cell(int column, int row) const {
   return intersect({column * kCell, row * kCell, kCell, kCell}, {0, 0, rect_.width, rect_.height});
 }
 
+/// Whether the shadow turns at a corner, across or down.
+bool ReceiverImage::is_bent(int column, int row) const {
+  const auto turns = [&](std::size_t before, std::size_t after) {
+    const std::size_t middle = corner(column, row);
+    return std::ranges::any_of(corners_, [&](const std::vector<float>& c) {
+      return std::abs(c[middle - before] - 2 * c[middle] + c[middle + after]) > kBend;
+    });
+  };
+  const auto down = static_cast<std::size_t>(columns_ + 1);
+  return (column > 0 && column < columns_ && turns(1, 1)) || (row > 0 && row < rows_ && turns(down, down));
+}
+
 bool ReceiverImage::is_smooth(int column, int row) const {
   const std::size_t above = corner(column, row), below = corner(column, row + 1);
-  return std::ranges::all_of(corners_, [&](const std::vector<float>& c) {
-    const auto [low, high] = std::minmax({c[above], c[above + 1], c[below], c[below + 1]});
-    return high - low <= kSmooth;
-  });
+  return (is_bent_[above] | is_bent_[above + 1] | is_bent_[below] | is_bent_[below + 1]) == 0;
 }
 
 void ReceiverImage::find_sharp() {
+  is_bent_.resize(corners_[0].size());
+  parallel_for(static_cast<std::size_t>(rows_) + 1, 0, [&](std::size_t row) {
+    for (int column = 0; column <= columns_; ++column)
+      is_bent_[corner(column, static_cast<int>(row))] = is_bent(column, static_cast<int>(row)) ? 1 : 0;
+  });
   sharp_cells_.assign(static_cast<std::size_t>(rows_), {});
   parallel_for(sharp_cells_.size(), 0, [&](std::size_t row) {
     Span& span = sharp_cells_[row];

@@ -12,7 +12,7 @@
 
 namespace catchlight::render {
 
-/// The ratio of shadowed to unshadowed light in the pixels of a rectangle, and 1 around it. Where it changes slowly it is kept at
+/// The ratio of shadowed to unshadowed light in the pixels of a rectangle, and 1 around it. Where it changes evenly it is kept at
 /// the corners of cells and interpolated, and no blur shows; pixels are kept around where it does not.
 class ReceiverImage {
  public:
@@ -41,6 +41,7 @@ class ReceiverImage {
 
   std::size_t corner(int column, int row) const { return static_cast<std::size_t>(row) * (columns_ + 1) + column; }
   PixelRect cell(int column, int row) const;
+  bool is_bent(int column, int row) const;
   bool is_smooth(int column, int row) const;
   void find_sharp();
   std::vector<Span> around_sharp(int margin_px) const;
@@ -50,6 +51,7 @@ class ReceiverImage {
   PixelRect rect_;
   int columns_ = 0, rows_ = 0;                 ///< cells
   std::array<std::vector<float>, 3> corners_;  ///< a plane a channel
+  std::vector<char> is_bent_;                  ///< a corner each
   std::vector<Span> sharp_cells_, blurred_;    ///< columns of cells, a row of them each; the latter are read from `pixels`
   std::vector<PixelRect> sharp_;
   Image pixels_;
