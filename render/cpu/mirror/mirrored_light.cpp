@@ -23,6 +23,8 @@ constexpr float kFootprintOf8 = 0.25f, kFootprintOf4 = 0.5f;
 constexpr float kSaysOf8[3][5] = {{1, 2, 2, 2, 1}, {2, 4, 4, 4, 2}, {1, 2, 2, 2, 1}};
 constexpr float kSaysOf4[3][5] = {{0, 1, 2, 1, 0}, {0, 2, 4, 2, 0}, {0, 1, 2, 1, 0}};
 constexpr float kSaysOf2[3][5] = {{0, 0, 1, 0, 0}, {0, 1, 4, 1, 0}, {0, 0, 1, 0, 0}};
+/// The alpha of a lobe that is wide.
+constexpr float kWideLobe = 0.2f;
 /// Beyond this change from pixel to pixel, the neighbour is another surface.
 constexpr float kMaxFootprint = 0.5f;
 
@@ -85,12 +87,13 @@ int MirroredLight::rays_of(const SurfacePoint& point) const {
   return point.coverage < 1 ? 1 : kPolishedRays;  // the outline's samples are the rays
 }
 
-/// How many pixels share a lobe's rays. The parts of an outline's pixel share with nobody, and take half of the rays.
+/// How many pixels share a lobe's rays. The parts of an outline's pixel share with nobody, and take half of the
+/// rays; of a wide lobe, much of which lies below a surface that is seen edge on, they take all.
 int MirroredLight::sharers_of(const Frame& frame, std::size_t index) const {
   const SurfacePoint& point = frame.surface.points[index];
   if (!is_rough(point) || lobe_rays_ == 0) return 1;
-  if (point.coverage < 1) return 2;
   const float roughness = materials_.materials[point.material].emissive_roughness.w;
+  if (point.coverage < 1) return roughness * roughness < kWideLobe ? 2 : 1;
   const float footprint = glm::length(footprint_x_[index]) + glm::length(footprint_y_[index]);
   const float share = footprint / (roughness * roughness);
   return share <= kFootprintOf8 ? 8 : share <= kFootprintOf4 ? 4 : 2;

@@ -4,9 +4,11 @@
 #include <cstdint>
 
 #include "catchlight/response.hpp"
+#include "render/cpu/mirror/brdf_table.hpp"
 #include "render/probe/prefilter.hpp"
 #include "render/probe/probe.hpp"
 #include "render/probe/probe_layouts.hpp"
+#include "shaders/shading.h"
 #include "tests/support/renderers.hpp"
 #include "tests/support/studio.hpp"
 
@@ -113,22 +115,94 @@ TEST_F(CompositorsGl, VarnishThatMirrorsTheTable) {
   }
 }
 
-// Rougher metal also shows light that grazes it, from behind the ball: there shadow maps darken their own surface.
+/// A ball of metal by twelve lamps side by side, which are split off.
+Shot metal_by_lamps(float roughness, const glm::dvec3& towards = {0.33, 0.22, 0.8}) {
+  Shot shot;
+  shot.scene = ball(material_of(glm::vec3(0.9f, 0.6f, 0.3f), 1, roughness, 0.04f));
+  const int bands = shot.scene.transfer.bands;
+  shot.scene.transfer.object_direct = shot.scene.transfer.object;
+  for (int i = 0; i < 12; ++i)
+    shot.scene.lights.push_back(
+        {glm::normalize(towards + glm::dvec3(0.02 * (i % 4) - 0.03, 0.02 * (i / 4) - 0.02, 0)), glm::dvec3(0.2), 0.01});
+  const ShRgb of_lights = project_to_sh(shot.scene.lights, bands);
+  for (std::size_t i = 0; i < of_lights.size(); ++i) shot.scene.light[i] += of_lights[i];
+  shot.scene.rest_reflections = shot.scene.reflections;
+  return shot;
+}
+
 TEST_F(CompositorsGl, HighlightsOfLampsOnMetal) {
   for (const float roughness : {0.15f, 0.35f}) {
     SCOPED_TRACE(roughness);
-    Shot shot;
-    shot.scene = ball(material_of(glm::vec3(0.9f, 0.6f, 0.3f), 1, roughness, 0.04f));
-    const int bands = shot.scene.transfer.bands;
-    shot.scene.transfer.object_direct = shot.scene.transfer.object;
-    for (int i = 0; i < 12; ++i)
-      shot.scene.lights.push_back(
-          {glm::normalize(glm::dvec3(0.3 + 0.02 * (i % 4), 0.2 + 0.02 * (i / 4), 0.8)), glm::dvec3(0.2), 0.01});
-    const ShRgb of_lights = project_to_sh(shot.scene.lights, bands);
-    for (std::size_t i = 0; i < of_lights.size(); ++i) shot.scene.light[i] += of_lights[i];
-    shot.scene.rest_reflections = shot.scene.reflections;
-    expect_one_picture(shot);
+    expect_one_picture(metal_by_lamps(roughness));
   }
+}
+
+/// Before the ball, at its side, and behind it, where the light grazes it.
+constexpr glm::dvec3 kTowardsLamps[] = {{0.3, 0.2, 0.8}, {0.9, 0.2, 0.2}, {0.1, 0.9, 0.15}};
+
+/// The few rays of so wide a lobe would meet the studio's own lamp by chance: it is left out. Around a roughness of 0.7 the rays
+/// that the processor shares among neighbours leave a 99th percentile of 2.1.
+TEST_F(CompositorsGl, HighlightsOfLampsOnRoughMetal) {
+  const ReflectionMap sky = filtered([](const glm::dvec3& d) {
+    return glm::mix(glm::vec3(0.10f, 0.08f, 0.06f), glm::vec3(0.5f, 0.6f, 0.8f), static_cast<float>(0.5 + 0.5 * d.z));
+  });
+  for (const float roughness : {0.35f, 0.5f, 0.6f, 0.85f, 1.0f})
+    for (const glm::dvec3& towards : kTowardsLamps) {
+      SCOPED_TRACE(::testing::Message() << roughness << " towards " << towards.x << ", " << towards.y << ", " << towards.z);
+      Shot shot = metal_by_lamps(roughness, towards);
+      shot.scene.reflections = shot.scene.rest_reflections = sky;
+      expect_one_picture(shot);
+    }
+}
+
+/// Red light of highlights over the frame, each pixel as the mean of 8 x 8 places: nothing of a ball lies in its own shadow.
+double highlights_of_the_formula(const Shot& shot) {
+  const RigidTransform tag_from_camera = inverse(shot.view.camera_from_tag);
+  const glm::dvec3 eye_m = tag_from_camera.translation_m, to_middle_m = glm::dvec3(0, 0, 0.05) - eye_m;
+  const CameraModel& camera = shot.view.camera;
+  const Material& m = shot.scene.mesh.materials.front();
+  const BrdfTable table;
+  double sum = 0;
+  for (int y = 0; y < 8 * camera.height_px; ++y)
+    for (int x = 0; x < 8 * camera.width_px; ++x) {
+      const glm::dvec3 ray((0.125 * x - 0.4375 - camera.cx_px) / camera.fx_px, (0.125 * y - 0.4375 - camera.cy_px) / camera.fy_px,
+                           1);
+      const glm::dvec3 direction = tag_from_camera.rotation * glm::normalize(ray);
+      const double nearest = glm::dot(direction, to_middle_m);
+      const double half_chord_2 = nearest * nearest - glm::dot(to_middle_m, to_middle_m) + 0.05 * 0.05;
+      if (half_chord_2 < 0) continue;
+      const glm::vec3 n(((nearest - std::sqrt(half_chord_2)) * direction - to_middle_m) / 0.05), to_viewer(-direction);
+      const glm::vec3 more = shading::multiple_scattering(m.base_color, table.at(glm::dot(n, to_viewer), m.roughness));
+      for (const LightSample& lamp : shot.scene.lights) {
+        const glm::vec3 to_lamp(lamp.direction);
+        if (glm::dot(n, to_lamp) <= 0) continue;
+        const glm::vec3 brdf = shading::glossy_brdf(n, to_viewer, to_lamp, static_cast<float>(lamp.spread_rad),
+                                                    m.roughness * m.roughness, m.base_color, 1);
+        sum += glm::dot(n, to_lamp) * lamp.irradiance.x * brdf.x * more.x / 64;
+      }
+    }
+  return sum;
+}
+
+TEST_F(CompositorsGl, HighlightsOfLampsOnABallAreThoseOfTheFormula) {
+  const ReflectionMap black = reflections_of([](const glm::dvec3&) { return glm::vec3(0); }, 4);
+  const auto red_of = [](Compositor&& compositor, const Shot& shot) {
+    const Image reflection = compositor.render(shot.view, shot.plate, true).layers->reflection;
+    double sum = 0;
+    for (std::size_t i = 0; i < reflection.data.size(); i += static_cast<std::size_t>(reflection.channels))
+      sum += reflection.data[i];
+    return sum;
+  };
+  for (const float roughness : {0.35f, 0.5f, 0.7f, 1.0f})
+    for (const glm::dvec3& towards : kTowardsLamps) {
+      SCOPED_TRACE(::testing::Message() << roughness << " towards " << towards.x << ", " << towards.y << ", " << towards.z);
+      Shot shot = metal_by_lamps(roughness, towards);
+      shot.scene.reflections = shot.scene.rest_reflections = black;
+      shot.view.exposure = glm::vec3(1);
+      const double expected = highlights_of_the_formula(shot);
+      EXPECT_NEAR(red_of(CpuCompositor(shot.scene, shot.settings), shot) / expected, 1, 0.01);
+      EXPECT_NEAR(red_of(GlCompositor(shot.scene, shot.settings), shot) / expected, 1, 0.01);
+    }
 }
 
 TEST_F(CompositorsGl, EmissiveAndUnlitMaterials) {
