@@ -70,19 +70,31 @@ CubeTexture::CubeTexture(const ReflectionMap& map) {
   if (levels_.empty()) levels_.push_back(make_level(Image(1, kFaces)));
 }
 
-Float4 CubeTexture::bilinear(const Level& level, const Place& place) {
+CubeTexture::Cell CubeTexture::cell_at(const Level& level, const Place& place) {
   const float x = (0.5f * place.s + 0.5f) * static_cast<float>(level.size) + 0.5f;
   const float y = (0.5f * place.t + 0.5f) * static_cast<float>(level.size) + 0.5f;
   const int left = static_cast<int>(x), top = static_cast<int>(y), stride = level.size + 2;
-  const Float4* texel = &level.texels[(static_cast<std::size_t>(place.face) * stride + top) * stride + left];
-  const float across = x - static_cast<float>(left);
-  const Float4 upper = blend(texel[0], texel[1], across), lower = blend(texel[stride], texel[stride + 1], across);
-  return blend(upper, lower, y - static_cast<float>(top));
+  return {&level.texels[(static_cast<std::size_t>(place.face) * stride + top) * stride + left], x - static_cast<float>(left),
+          y - static_cast<float>(top)};
 }
 
 glm::vec3 CubeTexture::sample(const glm::vec3& direction, float level) const {
   const Place place(direction);
-  return rgb(between_levels(level, levels_.size(), [&](std::size_t number) { return bilinear(levels_[number], place); }));
+  return rgb(between_levels(level, levels_.size(), [&](std::size_t number) {
+    const auto [texel, across, down] = cell_at(levels_[number], place);
+    const int stride = levels_[number].size + 2;
+    return blend(blend(texel[0], texel[1], across), blend(texel[stride], texel[stride + 1], across), down);
+  }));
+}
+
+void CubeTexture::prefetch(const glm::vec3& direction, float level) const {
+  const Place place(direction);
+  between_levels(level, levels_.size(), [&](std::size_t number) {
+    const Float4* texel = cell_at(levels_[number], place).first;
+    const int stride = levels_[number].size + 2;
+    for (const Float4* corner : {texel, texel + 1, texel + stride, texel + stride + 1}) __builtin_prefetch(corner);
+    return Float4{};
+  });
 }
 
 }  // namespace catchlight::render

@@ -21,15 +21,23 @@ class CubeTexture {
   /// not have length 1.
   glm::vec3 sample(const glm::vec3& direction, float level) const;
 
+  /// Begins to fetch what sample() will read.
+  void prefetch(const glm::vec3& direction, float level) const;
+
  private:
   struct Level {
     int size = 0;                ///< texels along a face
     std::vector<Float4> texels;  ///< faces with a border of one texel, which repeats the neighbours' outermost
   };
   struct Place;
+  /// Four texels and a place between them.
+  struct Cell {
+    const Float4* first;  ///< upper left
+    float across, down;
+  };
 
   static Level make_level(const Image& faces);
-  static Float4 bilinear(const Level& level, const Place& place);
+  static Cell cell_at(const Level& level, const Place& place);
 
   std::vector<Level> levels_;
 };

@@ -208,9 +208,9 @@ void MirroredLight::trace(const Frame& frame, std::size_t first, std::size_t las
     sums_[index].light += weight * radiance;
     sums_[index].weight += weight;
   };
+  const auto with_lights = [&](std::size_t index) { return !(frame.has_highlights && is_rough(frame.surface.points[index])); };
   const auto around = [&](std::size_t index, const MirrorRay& ray) {
-    const bool with_lights = !(frame.has_highlights && is_rough(frame.surface.points[index]));
-    return frame.around.radiance(ray.origin_m, ray.direction, ray.spread, ray.roughness, with_lights);
+    return frame.around.radiance(ray.origin_m, ray.direction, ray.spread, ray.roughness, with_lights(index));
   };
   for (std::size_t i = first; i < last; ++i) {
     const SurfacePoint& point = frame.surface.points[i];
@@ -218,16 +218,17 @@ void MirroredLight::trace(const Frame& frame, std::size_t first, std::size_t las
     if (!mirrors(point)) continue;
     choose_rays(frame, i, chosen);
     const Lobe lobe = lobe_of(frame, i);
-    const bool may_hit = lobe_rays_ > 0 && near_hit_[point.pixel];
+    const std::size_t others = rays.size();
     for (const int number : chosen) {
       const auto [direction, weight] = lobe.at(number);
       if (weight == 0) continue;
-      const MirrorRay ray{rays_.start(point.position_m, point.normal), direction, lobe.spread, lobe.share, number};
-      if (may_hit)
-        rays.push_back(ray), of.emplace_back(i, weight);
-      else
-        add(i, weight, around(i, ray));
+      rays.push_back({rays_.start(point.position_m, point.normal), direction, lobe.spread, lobe.share, number});
+      of.emplace_back(i, weight);
+      frame.around.prefetch(rays.back().origin_m, direction, lobe.share, with_lights(i));
     }
+    if (lobe_rays_ > 0 && near_hit_[point.pixel]) continue;
+    for (std::size_t k = others; k < rays.size(); ++k) add(i, of[k].second, around(i, rays[k]));
+    rays.resize(others), of.resize(others);
   }
   rays_.trace(rays);
   for (std::size_t k = 0; k < rays.size(); ++k)

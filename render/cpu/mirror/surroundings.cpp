@@ -60,4 +60,12 @@ glm::vec3 Surroundings::radiance(const glm::vec3& origin_m, const glm::vec3& dir
   return receiver_radiance(glm::vec2(origin_m) + distance_m * glm::vec2(direction), 2 * spread * distance_m, roughness);
 }
 
+void Surroundings::prefetch(const glm::vec3& origin_m, const glm::vec3& direction, float roughness, bool with_lights) const {
+  const CubeTexture& map = with_lights ? probe_ : rest_;
+  if (!plate_ || direction.z >= 0 || origin_m.z <= 0)
+    map.prefetch(light_from_tag_ * direction, shading::level_of(roughness, map.levels()));
+  else
+    shadow_->prefetch(glm::vec2(origin_m) - origin_m.z / direction.z * glm::vec2(direction));
+}
+
 }  // namespace catchlight::render

@@ -24,6 +24,9 @@ class Surroundings {
   glm::vec3 radiance(const glm::vec3& origin_m, const glm::vec3& direction, float spread, float roughness,
                      bool with_lights) const;
 
+  /// Begins to fetch what radiance() will read.
+  void prefetch(const glm::vec3& origin_m, const glm::vec3& direction, float roughness, bool with_lights) const;
+
   /// That of the probe alone. Without lights: less those that make highlights.
   glm::vec3 probe_radiance(const glm::vec3& direction, float roughness, bool with_lights) const;
 
