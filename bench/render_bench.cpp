@@ -38,7 +38,7 @@ void frame(benchmark::State& state) {
                  .distortion = {}};
   const PlateReader plate = [](const PixelRect& rect) {
     return Plate{rect, Plate::Format::rgb_u8,
-                 std::vector<std::byte>(static_cast<std::size_t>(rect.width) * rect.height * 3, std::byte{90})};
+                 RawVector<std::byte>(static_cast<std::size_t>(rect.width) * rect.height * 3, std::byte{90})};
   };
   compositor.render(view, plate);  // buffers are made and the light is evaluated once
   for (auto _ : state) {

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "catchlight/image.hpp"
 #include "catchlight/pixel_rect.hpp"
 #include "catchlight/tone_curve.hpp"
+#include "catchlight/util/raw_vector.hpp"
 
 namespace catchlight {
 
@@ -22,8 +22,8 @@ Image recompose(const Layers& layers);
 /// The changed part of a frame. RGBA floats: display codes as the footage's, alpha 1 where the virtual layer changed the pixel,
 /// else 0.
 struct Composite {
-  PixelRect rect;           ///< empty: nothing virtual in sight
-  std::vector<float> rgba;  ///< row-major within rect
+  PixelRect rect;         ///< empty: nothing virtual in sight
+  RawVector<float> rgba;  ///< row-major within rect
   bool glare_drawn = false;
   PixelRect glare_rect;  ///< what glare reaches, where it is drawn
   std::optional<Layers> layers;

@@ -3,14 +3,15 @@
 
 #include <cstddef>
 #include <span>
-#include <vector>
+
+#include "catchlight/util/raw_vector.hpp"
 
 namespace catchlight {
 
 /// Row-major, top row first, `channels` interleaved floats a pixel. Colour is scene-linear Rec. 709 unless a name says otherwise.
 struct Image {
   int width = 0, height = 0, channels = 3;
-  std::vector<float> data;
+  RawVector<float> data;
 
   Image() = default;
   Image(int width_, int height_, int channels_ = 3)

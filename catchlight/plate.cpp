@@ -4,13 +4,14 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <vector>
 
 namespace catchlight {
 namespace {
 
 template <typename Code>
-std::vector<float> linear_of(const Plate& plate, const PlateColor& color, double full_scale) {
-  std::vector<float> linear(plate.pixels.size() / sizeof(Code));
+RawVector<float> linear_of(const Plate& plate, const PlateColor& color, double full_scale) {
+  RawVector<float> linear(plate.pixels.size() / sizeof(Code));
   std::array<std::vector<float>, 3> tables;
   if constexpr (sizeof(Code) == 1)
     for (int channel = 0; channel < 3; ++channel)
@@ -28,7 +29,7 @@ std::vector<float> linear_of(const Plate& plate, const PlateColor& color, double
   return linear;
 }
 
-std::vector<float> linear_of(const Plate& plate, const PlateColor& color) {
+RawVector<float> linear_of(const Plate& plate, const PlateColor& color) {
   switch (plate.format) {
     case Plate::Format::rgb_u8:
       return linear_of<std::uint8_t>(plate, color, 255);
@@ -42,8 +43,8 @@ std::vector<float> linear_of(const Plate& plate, const PlateColor& color) {
 
 }  // namespace
 
-std::vector<float> linear_rgb(const Plate& plate, const PlateColor& color) {
-  std::vector<float> linear = linear_of(plate, color);
+RawVector<float> linear_rgb(const Plate& plate, const PlateColor& color) {
+  RawVector<float> linear = linear_of(plate, color);
   if (color.plate_from_rec709 != glm::mat3(1.0f)) {
     const glm::mat3 rec709_from_plate = glm::inverse(color.plate_from_rec709);
     for (std::size_t i = 0; i + 2 < linear.size(); i += 3) {

@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <functional>
 #include <glm/glm.hpp>
-#include <vector>
 
 #include "catchlight/pixel_rect.hpp"
 #include "catchlight/response.hpp"
+#include "catchlight/util/raw_vector.hpp"
 
 namespace catchlight {
 
@@ -17,7 +17,7 @@ struct Plate {
   enum class Format { rgb_u8, rgb_u16, rgb_f32 };
   PixelRect rect;
   Format format = Format::rgb_u8;
-  std::vector<std::byte> pixels;
+  RawVector<std::byte> pixels;
 };
 
 /// Gives the requested part of the current frame; called only for what the virtual layer reaches.
@@ -29,7 +29,7 @@ struct PlateColor : CameraResponse {
 };
 
 /// The plate's light as RGB triples, row-major, Rec. 709 primaries; 1 = sensor white.
-std::vector<float> linear_rgb(const Plate& plate, const PlateColor& color);
+RawVector<float> linear_rgb(const Plate& plate, const PlateColor& color);
 
 /// Light of the clipping level, a channel each. Infinite for float plates, which do not clip.
 glm::dvec3 clipping_linear(Plate::Format format, const PlateColor& color);

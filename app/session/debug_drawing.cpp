@@ -156,7 +156,7 @@ void draw(const Sketch& sketch, cv::Mat& canvas, const cv::Point& origin_px) {
 void grow(Composite& composite, const PixelRect& bounds) {
   const PixelRect old = composite.rect, grown = unite(old, bounds);
   const auto width = static_cast<std::size_t>(grown.width);
-  std::vector<float> rgba(4 * width * static_cast<std::size_t>(grown.height));
+  RawVector<float> rgba(4 * width * static_cast<std::size_t>(grown.height), 0.0f);
   for (int y = 0; y < old.height; ++y) {
     const auto from = composite.rgba.begin() + 4 * static_cast<std::ptrdiff_t>(y) * old.width;
     const auto to = static_cast<std::size_t>(old.y - grown.y + y) * width + static_cast<std::size_t>(old.x - grown.x);

@@ -31,8 +31,8 @@ class CacheStream {
     pass(&value, sizeof value);
   }
 
-  template <typename T>
-  void operator()(std::vector<T>& values) {
+  template <typename T, typename Allocator>
+  void operator()(std::vector<T, Allocator>& values) {
     pass_count(values, sizeof(T));
     pass(values.data(), values.size() * sizeof(T));
   }
@@ -50,8 +50,8 @@ class CacheStream {
   std::array<std::uint64_t, 2> content() const { return hash_.value(); }
 
  private:
-  template <typename T>
-  void pass_count(std::vector<T>& values, std::size_t min_bytes_each) {
+  template <typename Values>
+  void pass_count(Values& values, std::size_t min_bytes_each) {
     std::uint64_t count = values.size();
     pass(&count, sizeof count);
     if (in_ && (failed_ || count > left_ / min_bytes_each)) count = 0, failed_ = true;

@@ -24,8 +24,8 @@ class ContentHash {
   }
 
   /// Values without gaps between their members.
-  template <typename T>
-  void add(const std::vector<T>& values) {
+  template <typename T, typename Allocator>
+  void add(const std::vector<T, Allocator>& values) {
     add_bytes(values.data(), values.size() * sizeof(T));
   }
 

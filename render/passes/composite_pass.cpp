@@ -161,7 +161,7 @@ void CompositePass::draw(const FrameView& view, const PixelRect& rect, const Vir
   draw_.over({0, 0, rect_.width, rect_.height}, drawn_framebuffer_, program_);
 }
 
-std::vector<float> CompositePass::read() const {
+RawVector<float> CompositePass::read() const {
   return read_back(drawn_framebuffer_, 0, rect_.width, rect_.height, 4).data;
 }
 

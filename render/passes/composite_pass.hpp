@@ -45,7 +45,7 @@ class CompositePass {
   const GlTexture& drawn() const { return output_->texture(); }
 
   /// The last draw's codes and change flags, RGBA.
-  std::vector<float> read() const;
+  RawVector<float> read() const;
 
   /// Plate, object, shadow and glare of the last draw with layers.
   void read_layers(Layers& layers) const;

@@ -60,7 +60,7 @@ void TonePass::draw(const GlTexture& light, int width, int height, const PlateCo
   draw_.over({0, 0, width, height}, output_->framebuffer(), program_);
 }
 
-std::vector<float> TonePass::read() const {
+RawVector<float> TonePass::read() const {
   return read_back(output_->framebuffer(), 0, width_, height_, 4).data;
 }
 

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include "catchlight/plate.hpp"
 #include "catchlight/tone_curve.hpp"
+#include "catchlight/util/raw_vector.hpp"
 #include "render/gl/fullscreen.hpp"
 #include "render/gl/render_target.hpp"
 #include "render/gl/shader_library.hpp"
@@ -45,7 +45,7 @@ class TonePass {
   void draw(const GlTexture& light, int width, int height, const PlateColor& color, const ToneCurve& curve);
 
   /// The last draw's codes, RGBA; alpha is 1.
-  std::vector<float> read() const;
+  RawVector<float> read() const;
 
  private:
   ToneSettings settings_;

@@ -327,7 +327,7 @@ TYPED_TEST(CompositorGl, FramesThatMakeNoSenseAreRefusedByName) {
   view.camera.width_px = 0;
   EXPECT_THAT([&] { compositor.render(view, plate_u8(0)); }, ThrowsMessage<Error>(HasSubstr("0 x 120")));
   view = view_from_above();
-  const auto short_plate = [](const PixelRect& rect) { return Plate{rect, Plate::Format::rgb_u8, std::vector<std::byte>(5)}; };
+  const auto short_plate = [](const PixelRect& rect) { return Plate{rect, Plate::Format::rgb_u8, RawVector<std::byte>(5)}; };
   EXPECT_THAT([&] { compositor.render(view, short_plate); }, ThrowsMessage<Error>(HasSubstr("bytes, got 5")));
 }
 

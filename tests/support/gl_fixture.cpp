@@ -155,7 +155,7 @@ FrameView view_from_above(double height_m) {
 
 PlateReader plate_u8(const std::function<glm::ivec3(int, int)>& code) {
   return [code](const PixelRect& rect) {
-    Plate plate{rect, Plate::Format::rgb_u8, std::vector<std::byte>(static_cast<std::size_t>(rect.width) * rect.height * 3)};
+    Plate plate{rect, Plate::Format::rgb_u8, RawVector<std::byte>(static_cast<std::size_t>(rect.width) * rect.height * 3)};
     for_each_pixel(rect, [&](int x, int y, std::size_t i) {
       const glm::ivec3 value = code(x, y);
       for (int c = 0; c < 3; ++c) plate.pixels[3 * i + c] = static_cast<std::byte>(value[c]);
@@ -170,7 +170,7 @@ PlateReader plate_u8(int code) {
 
 PlateReader plate_f32(const std::function<glm::vec3(int, int)>& code) {
   return [code](const PixelRect& rect) {
-    Plate plate{rect, Plate::Format::rgb_f32, std::vector<std::byte>(static_cast<std::size_t>(rect.width) * rect.height * 12)};
+    Plate plate{rect, Plate::Format::rgb_f32, RawVector<std::byte>(static_cast<std::size_t>(rect.width) * rect.height * 12)};
     for_each_pixel(rect, [&](int x, int y, std::size_t i) {
       const glm::vec3 value = code(x, y);
       std::memcpy(&plate.pixels[12 * i], &value, 12);

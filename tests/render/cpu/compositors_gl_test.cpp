@@ -284,7 +284,7 @@ TEST_F(CompositorsGl, FloatAndSixteenBitPlates) {
     SCOPED_TRACE(static_cast<int>(transfer));
     shot.view.color.transfer = transfer;
     shot.plate = [](const PixelRect& rect) {
-      Plate plate{rect, Plate::Format::rgb_u16, std::vector<std::byte>(6 * static_cast<std::size_t>(rect.width) * rect.height)};
+      Plate plate{rect, Plate::Format::rgb_u16, RawVector<std::byte>(6 * static_cast<std::size_t>(rect.width) * rect.height)};
       auto* code = reinterpret_cast<std::uint16_t*>(plate.pixels.data());
       for (int y = 0; y < rect.height; ++y)
         for (int x = 0; x < rect.width; ++x)

@@ -91,7 +91,7 @@ FrameView view_of(double height_m = 0.4) {
 }
 
 Plate plate_of(const PixelRect& rect) {
-  Plate plate{rect, Plate::Format::rgb_u8, std::vector<std::byte>(3 * static_cast<std::size_t>(rect.width) * rect.height)};
+  Plate plate{rect, Plate::Format::rgb_u8, RawVector<std::byte>(3 * static_cast<std::size_t>(rect.width) * rect.height)};
   for (int y = 0; y < rect.height; ++y)
     for (int x = 0; x < rect.width; ++x)
       for (int c = 0; c < 3; ++c)
@@ -249,7 +249,7 @@ TEST(CpuCompositor, RefusesWhatDoesNotFitTogether) {
   EXPECT_THROW(CpuCompositor(scene, {}), Error);
   scene = scene_of(still());
   CpuCompositor compositor(scene, {});
-  const auto short_plate = [](const PixelRect& rect) { return Plate{rect, Plate::Format::rgb_u8, std::vector<std::byte>(5)}; };
+  const auto short_plate = [](const PixelRect& rect) { return Plate{rect, Plate::Format::rgb_u8, RawVector<std::byte>(5)}; };
   EXPECT_THROW(compositor.render(view_of(), short_plate), Error);
   EXPECT_THROW(compositor.render(view_of(), [](const PixelRect&) { return plate_of({1, 2, 3, 4}); }), Error);
 }

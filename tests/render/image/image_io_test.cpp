@@ -78,7 +78,7 @@ TEST(ExrFile, HalfHoldsItsLargestValueInsteadOfInfinity) {
   Image image(2, 1);
   image.data = {1e6f, -1e6f, 0.5f, 0, 1, 2};
   write_exr(folder / "a.exr", {{"", &image, {"R", "G", "B"}}});
-  EXPECT_EQ(read_exr(folder / "a.exr").data, (std::vector<float>{65504, -65504, 0.5f, 0, 1, 2}));
+  EXPECT_EQ(read_exr(folder / "a.exr").data, (RawVector<float>{65504, -65504, 0.5f, 0, 1, 2}));
 }
 
 TEST(ExrFile, KeepsLayersApartWithTheirTypes) {
@@ -95,7 +95,7 @@ TEST(ExrFile, KeepsLayersApartWithTheirTypes) {
   EXPECT_EQ(channels["Z"].type, Imf::FLOAT);
   EXPECT_TRUE(Imf::hasChromaticities(file.header()));
   EXPECT_EQ(read_exr(folder / "a.exr").data, beauty.data);
-  std::vector<float> read_depth(12);
+  RawVector<float> read_depth(12);
   Imf::FrameBuffer frame;
   frame.insert("Z", Imf::Slice::Make(Imf::FLOAT, read_depth.data(), file.header().dataWindow()));
   file.setFrameBuffer(frame);
@@ -135,7 +135,7 @@ TEST(ExrFile, ReadsLuminanceAsGrey) {
   const TempFolder folder;
   write_foreign_exr(folder / "a.exr", Imf::Header(3, 2), {"Y"}, 1);
   const Image image = read_exr(folder / "a.exr");
-  EXPECT_EQ(image.data, (std::vector<float>{1, 1, 1, 2, 2, 2, 3, 3, 3, 4, 4, 4, 5, 5, 5, 6, 6, 6}));
+  EXPECT_EQ(image.data, (RawVector<float>{1, 1, 1, 2, 2, 2, 3, 3, 3, 4, 4, 4, 5, 5, 5, 6, 6, 6}));
 }
 
 TEST(ExrFile, ConvertsOtherPrimariesAndKeepsWhiteWhite) {

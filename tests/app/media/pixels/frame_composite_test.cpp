@@ -90,7 +90,7 @@ TEST_P(EveryFormat, ALargerRectangleOfTheSamePixelsWritesTheSame) {
   const Composite small = random_composite({5, 7, 33, 21}, 0.7, 11);
   Composite large;
   large.rect = {0, 0, kWidth, kHeight};
-  large.rgba.resize(4 * kWidth * kHeight);
+  large.rgba.resize(4 * kWidth * kHeight, 0.0f);
   for (int y = 0; y < small.rect.height; ++y)
     std::copy_n(small.rgba.begin() + 4 * y * small.rect.width, 4 * small.rect.width,
                 large.rgba.begin() + 4 * ((small.rect.y + y) * kWidth + small.rect.x));

@@ -28,7 +28,7 @@ std::vector<CameraResponse> responses() {
 
 template <typename Code>
 Plate plate_of(const std::vector<Code>& codes, Plate::Format format) {
-  Plate plate{{0, 0, static_cast<int>(codes.size() / 3), 1}, format, std::vector<std::byte>(codes.size() * sizeof(Code))};
+  Plate plate{{0, 0, static_cast<int>(codes.size() / 3), 1}, format, RawVector<std::byte>(codes.size() * sizeof(Code))};
   std::memcpy(plate.pixels.data(), codes.data(), plate.pixels.size());
   return plate;
 }

@@ -173,7 +173,7 @@ TEST_F(CpuToneGl, CodesAreThoseOfTheCard) {
       const ToneCurve curve = pass.meter(drawn, size.width, size.height, each.color);
       pass.draw_glare(drawn, size.width, size.height);
       pass.draw(drawn, size.width, size.height, each.color, curve);
-      const std::vector<float> theirs = pass.read();
+      const RawVector<float> theirs = pass.read();
 
       CpuTone ours(settings);
       const ToneCurve metered = ours.meter(light, each.color);
