@@ -14,13 +14,15 @@ namespace {
 
 constexpr auto kKind = "direct-light";
 // Raise when what is found or its members change: older files then no longer match.
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 /// Shares of the object's diagonal: how far above a surface its shadow is looked for, which smoothed normals need; how fine
 /// shadows are kept.
 constexpr float kLiftShare = 1.5f / 512, kLatticeShare = 1.0f / 384;
-/// Within triangles longer than this share of the diagonal, shadows are looked for that miss the corners.
+/// Within triangles longer than this share of the diagonal, shadows are looked for that miss the corners: so far apart where the
+/// light stands still, else at four places.
 constexpr float kProbedShare = 1.0f / 64;
+constexpr float kMaxProbedSteps = 64;
 /// How much coarser shadows are that are found for one frame alone.
 constexpr float kCoarser = 3;
 constexpr std::uint16_t kMaxLatticeSteps = 96;
@@ -75,6 +77,7 @@ void DirectLight::set_samples(std::span<const LightSample> samples_tag, bool sta
   keep_findings();
   kept_ = kept;
   lattice_step_m_ = (stands_still ? 1 : kCoarser) * fine_step_m_;
+  stands_still_ = stands_still;
   samples_.assign(samples_tag.begin(), samples_tag.end());
   at_vertices_over_pi_.clear();
   if (samples_.empty() || kept_.read(kKind, kVersion, [this](CacheStream& file) { archive(file); })) return;
@@ -160,9 +163,16 @@ void DirectLight::look_at(Known& known) const {
   };
   known.every = known.any = vertices_[mesh_.indices[3 * static_cast<std::size_t>(known.triangle)]].seen;
   for (std::size_t k = 1; k < 3; ++k) add(vertices_[mesh_.indices[3 * static_cast<std::size_t>(known.triangle) + k]].seen);
-  if (longest_edge_m(known.triangle) <= probed_edge_m_) return;
-  for (const glm::vec2& probe : {glm::vec2(0.5f, 0), glm::vec2(0, 0.5f), glm::vec2(0.5f, 0.5f), glm::vec2(1.0f / 3, 1.0f / 3)})
-    add(node_in(known.triangle, probe, {}, bits_of(samples_.size())).seen);
+  const float edges = std::ceil(longest_edge_m(known.triangle) / probed_edge_m_);
+  if (edges <= 1) return;
+  const auto probe = [&](const glm::vec2& weights) { add(node_in(known.triangle, weights, {}, bits_of(samples_.size())).seen); };
+  if (!stands_still_) {
+    for (const glm::vec2& w : {glm::vec2(0.5f, 0), glm::vec2(0, 0.5f), glm::vec2(0.5f, 0.5f), glm::vec2(1.0f / 3)}) probe(w);
+    return;
+  }
+  const float steps = std::min(edges + 1, kMaxProbedSteps);
+  for (float up = 0; up < steps; ++up)
+    for (float across = up == 0 ? 1 : 0; across + up <= steps && across < steps; ++across) probe(glm::vec2(across, up) / steps);
 }
 
 /// Only of the samples that corners and probes do not agree on it is asked which are seen.

@@ -84,6 +84,7 @@ class DirectLight {
   const Mesh& mesh_;
   const RayScene& rays_;
   float lift_m_, fine_step_m_, lattice_step_m_, probed_edge_m_;
+  bool stands_still_ = true;
   std::vector<LightSample> samples_;
   std::vector<DirectLightNode> vertices_, lattice_nodes_;
   std::vector<char> is_vertex_known_;

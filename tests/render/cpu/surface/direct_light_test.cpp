@@ -102,19 +102,18 @@ TEST(DirectLight, OfAnOpenPlaneIsTheSumOfIrradianceTimesCosine) {
   }
 }
 
-TEST(DirectLight, IsInShadowWhereRaysAreBlocked) {
-  Mesh mesh = floor_of(16);
-  const std::uint32_t floor_triangles = 2 * 16 * 16;
-  append(mesh, box({-0.1f, -0.08f, 0.1f}, {0.12f, 0.1f, 0.2f}));
+/// Holds random places of a floor under `above` against brute force; how many of them are in shadow.
+int expect_shadows_on_floor(int cells, const Mesh& above, float step_m) {
+  Mesh mesh = floor_of(cells);
+  append(mesh, above);
   const RayScene rays(mesh);
   const Bounds bounds = bounds_of(mesh);
   DirectLight light(mesh, rays, bounds);
   light.set_samples(kLamps, true);
-  const std::vector<SurfacePoint> points = random_points(mesh, floor_triangles, 3000);
+  const std::vector<SurfacePoint> points = random_points(mesh, static_cast<std::uint32_t>(2 * cells * cells), 3000);
   light.prepare(points);
   const float lift_m = 1.5f / 512 * bounds.diagonal_m();
-  // A shadow's edge is as wide as a step of the lattice, a 384th of the object's diagonal: there it need not be the same.
-  const float step_m = bounds.diagonal_m() / 384;
+  // A shadow's edge is as wide as a step of the lattice: there it need not be the same.
   int at_edges = 0, in_shadow = 0;
   for (const SurfacePoint& point : points) {
     const glm::dvec3 expected = brute_irradiance(mesh, point.position_m, point.normal, lift_m);
@@ -130,7 +129,16 @@ TEST(DirectLight, IsInShadowWhereRaysAreBlocked) {
     }
   }
   EXPECT_LT(at_edges, 300);
-  EXPECT_GT(in_shadow, 100);
+  return in_shadow;
+}
+
+TEST(DirectLight, IsInShadowWhereRaysAreBlocked) {
+  EXPECT_GT(expect_shadows_on_floor(16, box({-0.1f, -0.08f, 0.1f}, {0.12f, 0.1f, 0.2f}), std::sqrt(2.0f) / 384), 100);
+}
+
+/// Two triangles, none of whose corners, middles of edges or middle lies in the shadow.
+TEST(DirectLight, IsInShadowInTheMiddleOfALargeTriangle) {
+  EXPECT_GT(expect_shadows_on_floor(1, box({0.1f, -0.27f, 0}, {0.16f, -0.21f, 0.16f}), std::sqrt(2.0f) / 96), 50);
 }
 
 TEST(DirectLight, OfABackFaceIsThatOfItsOwnSide) {
