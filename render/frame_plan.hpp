@@ -38,9 +38,10 @@ struct FramePlan {
 
   bool draws_virtual() const { return !virtual_rect.empty(); }
   bool empty() const { return !draws_virtual() && !makes_layers && !is_toned; }
-  /// The pixels that are composited where glare reaches those of `glare_rect`.
-  PixelRect output_rect(const PixelRect& glare_rect) const {
-    return makes_layers || is_toned ? frame : unite(virtual_rect, glare_rect);
+  /// The pixels that are composited where the virtual layer was drawn in those of `drawn`, and glare reaches those of
+  /// `glare_rect`.
+  PixelRect output_rect(const PixelRect& drawn, const PixelRect& glare_rect) const {
+    return makes_layers || is_toned ? frame : unite(drawn, glare_rect);
   }
 };
 

@@ -259,7 +259,7 @@ Composite GlCompositor::Impl::render(const FrameView& view, const PlateReader& p
   }
   if (plan.draws_virtual()) draw_virtual_layer(plan, result);
   if (result.glare_drawn) pass("glare", [&] { result.glare_rect = spread_glare(view.camera); });
-  result.rect = plan.output_rect(result.glare_rect);
+  result.rect = plan.output_rect(plan.virtual_rect, result.glare_rect);
   if (!plan.mirrors_receiver) pass("plate", [&] { upload_plate(plate, result.rect); });
   pass("composite", [&] { draw_composite(view, plan, result); });
   if (plan.is_toned) {

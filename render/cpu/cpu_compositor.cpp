@@ -163,7 +163,7 @@ void CpuCompositor::Impl::draw_composite(const FrameView& view, const FramePlan&
   if (plan.draws_virtual()) {
     images_in_frame.object = &images.color, images_in_frame.object_rect = images.rect;
     images_in_frame.shadow = [&](int x, int y, int count, const std::array<float*, 3>& ratio) {
-      shadow.read_row(x, y, count, ratio);
+      return shadow.read_row(x, y, count, ratio);
     };
   }
   images_in_frame.passed_at_tag = plan.passed_at_tag;
@@ -201,7 +201,9 @@ Composite CpuCompositor::Impl::render(const FrameView& view, const PlateReader& 
   }
   if (plan.draws_virtual()) draw_virtual_layer(view, plan, result);
   if (result.glare_drawn) clock.pass("glare", [&] { result.glare_rect = glare->spread(view.camera); });
-  result.rect = plan.output_rect(result.glare_rect);
+  const PixelRect drawn = plan.draws_virtual() ? unite(images.rect, shadow.shadowed()) : PixelRect{};
+  result.rect = plan.output_rect(drawn, result.glare_rect);
+  if (result.rect.empty()) return result;
   if (!plan.mirrors_receiver) clock.pass("plate", [&] { read_plate(view, reader, result.rect); });
   clock.pass("composite", [&] { draw_composite(view, plan, result); });
   if (plan.makes_layers) put_object_layers(images, *result.layers);

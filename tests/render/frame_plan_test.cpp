@@ -46,8 +46,8 @@ TEST(FramePlan, HoldsObjectAndShadow) {
   // 50 mm are 20 px; the border is a few pixels.
   EXPECT_TRUE(holds(plan.virtual_rect, {60, 40, 40, 40}));
   EXPECT_TRUE(holds({50, 30, 60, 60}, plan.virtual_rect)) << plan.virtual_rect.width << " x " << plan.virtual_rect.height;
-  EXPECT_EQ(plan.output_rect(kNothing), plan.virtual_rect);
-  EXPECT_TRUE(holds(plan.output_rect({0, 0, 10, 10}), {0, 0, 10, 10})) << "glare reaches further";
+  EXPECT_EQ(plan.output_rect(plan.virtual_rect, kNothing), plan.virtual_rect);
+  EXPECT_TRUE(holds(plan.output_rect(plan.virtual_rect, {0, 0, 10, 10}), {0, 0, 10, 10})) << "glare reaches further";
 }
 
 TEST(FramePlan, FromBehindTheReceiverIsNeitherDrawnNorMirrored) {
@@ -78,11 +78,11 @@ TEST(FramePlan, AToneCurveNeedsTheWholeFrameAlsoWithoutAPose) {
   SceneNeeds scene = mirroring_box();
   scene.recodes_frames = true;
   FrameView view = view_from_above();
-  EXPECT_EQ(plan_frame(view, scene, false).output_rect(kNothing), (PixelRect{0, 0, 160, 120}));
+  EXPECT_EQ(plan_frame(view, scene, false).output_rect(kNothing, kNothing), (PixelRect{0, 0, 160, 120}));
   view.has_pose = false;
   const FramePlan lost = plan_frame(view, scene, false);
   EXPECT_TRUE(lost.is_toned && !lost.empty() && !lost.draws_virtual());
-  EXPECT_EQ(lost.output_rect(kNothing), lost.frame);
+  EXPECT_EQ(lost.output_rect(kNothing, kNothing), lost.frame);
 }
 
 TEST(FramePlan, LayersAreWholeFramesOfLightThatNoToneCurveChanges) {
@@ -91,7 +91,7 @@ TEST(FramePlan, LayersAreWholeFramesOfLightThatNoToneCurveChanges) {
   const FramePlan plan = plan_frame(view_from_above(), scene, true);
   EXPECT_TRUE(plan.makes_layers);
   EXPECT_FALSE(plan.is_toned);
-  EXPECT_EQ(plan.output_rect(kNothing), plan.frame);
+  EXPECT_EQ(plan.output_rect(plan.virtual_rect, kNothing), plan.frame);
 }
 
 TEST(FramePlan, BlurWidensWhatIsDrawnWithinTheFrame) {

@@ -46,9 +46,10 @@ class PlateComposite {
   void put(PlateBlock& block) const {
     const std::size_t in_plate =
         static_cast<std::size_t>(block.y - plate_.rect.y) * plate_.rect.width + (block.x - plate_.rect.x);
-    read_virtual(block);
+    const bool wants_all = as_light_ || result_.layers;
+    const bool is_touched = (read_virtual(block) || wants_all) && find_touched(block);
     response_.read_codes(plate_, in_plate, block.count, block.code);
-    if (!find_touched(block) && !as_light_ && !result_.layers) {
+    if (!is_touched && !wants_all) {
       write(block, block.code, nullptr);
       return;
     }
@@ -65,22 +66,26 @@ class PlateComposite {
     if (result_.layers) put_layers(block);
   }
 
-  void read_virtual(PlateBlock& block) const {
-    const auto rows = [&](Planes& planes) { return std::array{planes[0].data(), planes[1].data(), planes[2].data()}; };
+  /// False where there is nothing virtual.
+  bool read_virtual(PlateBlock& block) const {
     const auto fill = [&](Planes& planes, float value) {
       for (Plane& plane : planes) std::fill_n(plane.data(), block.count, value);
     };
+    bool is_there = false;
     if (virtual_.shadow)
-      virtual_.shadow(block.x, block.y, block.count, rows(block.ratio));
+      is_there |=
+          virtual_.shadow(block.x, block.y, block.count, {block.ratio[0].data(), block.ratio[1].data(), block.ratio[2].data()});
     else
       fill(block.ratio, 1);
-    if (virtual_.glare)
-      read_glare(block);
-    else
-      fill(block.glare, 0);
     fill(block.object, 0);
     std::fill_n(block.coverage.data(), block.count, 0.0f);
-    if (virtual_.object) read_object(block);
+    if (virtual_.object) is_there |= read_object(block);
+    if (!virtual_.glare) {
+      fill(block.glare, 0);
+      return is_there;
+    }
+    read_glare(block);
+    return true;
   }
 
   void read_glare(PlateBlock& block) const {
@@ -90,9 +95,9 @@ class PlateComposite {
       for (std::size_t c = 0; c < 3; ++c) block.glare[c][i] = rgb[3 * i + c];
   }
 
-  void read_object(PlateBlock& block) const {
+  bool read_object(PlateBlock& block) const {
     const PixelRect seen = intersect({block.x, block.y, block.count, 1}, virtual_.object_rect);
-    if (seen.empty()) return;
+    if (seen.empty()) return false;
     for (int x = seen.x; x < seen.x + seen.width; ++x) {
       const float* pixel = virtual_.object->pixel(x - virtual_.object_rect.x, block.y - virtual_.object_rect.y);
       const auto i = static_cast<std::size_t>(x - block.x);
@@ -100,6 +105,7 @@ class PlateComposite {
       const float passed = has_vignetting_ && pixel[3] > 0 ? passed_at({x, block.y}) : 1;
       for (std::size_t c = 0; c < 3; ++c) block.object[c][i] = pixel[c] * passed;
     }
+    return true;
   }
 
   float passed_at(const glm::dvec2& pixel) const {

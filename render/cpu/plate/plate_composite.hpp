@@ -15,8 +15,8 @@ namespace catchlight::render {
 /// Gives the glare of `count` pixels of the frame from (x, y) on to the right: RGB, exposed linear.
 using GlareRow = std::function<void(int x, int y, int count, float* rgb)>;
 
-/// Gives the ratio of shadowed to unshadowed light in the same way, a plane a channel: red, green, blue.
-using ShadowRow = std::function<void(int x, int y, int count, const std::array<float*, 3>& ratio)>;
+/// Gives the ratio of shadowed to unshadowed light in the same way, a plane a channel: red, green, blue. False where it is 1.
+using ShadowRow = std::function<bool(int x, int y, int count, const std::array<float*, 3>& ratio)>;
 
 /// What is put into the plate.
 struct VirtualImages {

@@ -49,8 +49,14 @@ class ReceiverImage::Seen {
   glm::mat3 tag_from_camera_;
 };
 
+void ReceiverImage::Span::add(const Span& other) {
+  if (other.empty()) return;
+  *this = empty() ? other : Span{std::min(begin, other.begin), std::max(end, other.end)};
+}
+
 void ReceiverImage::clear() {
   rect_ = {};
+  rows_ = 0;
   sharp_.clear();
 }
 
@@ -75,6 +81,30 @@ bool ReceiverImage::is_smooth(int column, int row) const {
   return (is_bent_[above] | is_bent_[above + 1] | is_bent_[below] | is_bent_[below + 1]) == 0;
 }
 
+/// The cells that any corner of is in shadow, and those that a blur may darken.
+void ReceiverImage::find_shadowed() {
+  shadowed_cells_ = blurred_;
+  parallel_for(shadowed_cells_.size(), 0, [&](std::size_t row) {
+    Span& span = shadowed_cells_[row];
+    const auto is_shadowed = [&](std::size_t corner) {
+      return corners_[0][corner] != 1 || corners_[1][corner] != 1 || corners_[2][corner] != 1;
+    };
+    for (std::size_t end : {row, row + 1})
+      for (int column = 0; column <= columns_; ++column)
+        if (is_shadowed(corner(column, static_cast<int>(end))))
+          span.add({std::max(column - 1, 0), std::min(column + 1, columns_)});
+  });
+}
+
+PixelRect ReceiverImage::shadowed() const {
+  PixelRect box;
+  for (int row = 0; row < rows_; ++row) {
+    const Span& span = shadowed_cells_[static_cast<std::size_t>(row)];
+    if (!span.empty()) box = unite(box, unite(cell(span.begin, row), cell(span.end - 1, row)));
+  }
+  return {box.x + rect_.x, box.y + rect_.y, box.width, box.height};
+}
+
 void ReceiverImage::find_sharp() {
   is_bent_.resize(corners_[0].size());
   parallel_for(static_cast<std::size_t>(rows_) + 1, 0, [&](std::size_t row) {
@@ -83,17 +113,13 @@ void ReceiverImage::find_sharp() {
   });
   sharp_cells_.assign(static_cast<std::size_t>(rows_), {});
   parallel_for(sharp_cells_.size(), 0, [&](std::size_t row) {
-    Span& span = sharp_cells_[row];
-    for (int column = 0; column < columns_; ++column) {
-      if (is_smooth(column, static_cast<int>(row))) continue;
-      if (span.end == 0) span.begin = column;
-      span.end = column + 1;
-    }
+    for (int column = 0; column < columns_; ++column)
+      if (!is_smooth(column, static_cast<int>(row))) sharp_cells_[row].add({column, column + 1});
   });
   sharp_.clear();
   for (int row = 0; row < rows_; ++row) {
     const Span& span = sharp_cells_[static_cast<std::size_t>(row)];
-    if (span.end > 0) sharp_.push_back(unite(cell(span.begin, row), cell(span.end - 1, row)));
+    if (!span.empty()) sharp_.push_back(unite(cell(span.begin, row), cell(span.end - 1, row)));
   }
 }
 
@@ -102,12 +128,10 @@ std::vector<ReceiverImage::Span> ReceiverImage::around_sharp(int margin_px) cons
   std::vector<Span> around(sharp_cells_.size());
   for (int row = 0; row < rows_; ++row) {
     const Span& sharp = sharp_cells_[static_cast<std::size_t>(row)];
-    if (sharp.end == 0) continue;
-    const int left = std::max(sharp.begin - margin, 0), right = std::min(sharp.end + margin, columns_);
-    for (int near = std::max(row - margin, 0); near <= std::min(row + margin, rows_ - 1); ++near) {
-      Span& span = around[static_cast<std::size_t>(near)];
-      span = span.end == 0 ? Span{left, right} : Span{std::min(span.begin, left), std::max(span.end, right)};
-    }
+    if (sharp.empty()) continue;
+    const Span wide{std::max(sharp.begin - margin, 0), std::min(sharp.end + margin, columns_)};
+    for (int near = std::max(row - margin, 0); near <= std::min(row + margin, rows_ - 1); ++near)
+      around[static_cast<std::size_t>(near)].add(wide);
   }
   return around;
 }
@@ -154,6 +178,7 @@ void ReceiverImage::draw(const FrameView& view, const FramePlan& plan, const Pix
   find_sharp();
   blurred_ = around_sharp(reach_px);
   const std::vector<Span> drawn = around_sharp(2 * reach_px);  // what the blurred pixels are made of
+  find_shadowed();
   pixels_.width = rect_.width, pixels_.height = rect_.height, pixels_.channels = 4;
   pixels_.data.resize(static_cast<std::size_t>(rect_.width) * rect_.height * 4);
   parallel_for(drawn.size(), 0, [&](std::size_t row) {
@@ -185,23 +210,26 @@ void ReceiverImage::interpolate(int x, int y, int count, const std::array<float*
   }
 }
 
-void ReceiverImage::read_row(int x, int y, int count, const std::array<float*, 3>& ratio) const {
-  const PixelRect there = intersect({x, y, count, 1}, rect_);
-  if (there.empty() || there.width < count)
-    for (float* plane : ratio) std::fill_n(plane, count, 1.0f);
-  if (there.empty()) return;
-  const int row = y - rect_.y, begin = there.x - rect_.x, end = begin + there.width;
-  const Span& blurred = blurred_[static_cast<std::size_t>(row / kCell)];
-  const int first = std::clamp(blurred.begin * kCell, begin, end), last = std::clamp(blurred.end * kCell, first, end);
+bool ReceiverImage::read_row(int x, int y, int count, const std::array<float*, 3>& ratio) const {
+  for (float* plane : ratio) std::fill_n(plane, count, 1.0f);
+  if (y < rect_.y || y >= rect_.y + rect_.height) return false;
+  const int row = y - rect_.y, left = x - rect_.x;
+  const auto cells = static_cast<std::size_t>(row / kCell);
+  const int right = std::min(left + count, rect_.width);
+  const int begin = std::max(left, kCell * shadowed_cells_[cells].begin),
+            end = std::min(right, kCell * shadowed_cells_[cells].end);
+  if (begin >= end) return false;
   const auto from = [&](int column) {
-    const int i = column + rect_.x - x;
-    return std::array{ratio[0] + i, ratio[1] + i, ratio[2] + i};
+    return std::array{ratio[0] + column - left, ratio[1] + column - left, ratio[2] + column - left};
   };
+  const int first = std::clamp(blurred_[cells].begin * kCell, begin, end),
+            last = std::clamp(blurred_[cells].end * kCell, first, end);
   if (first > begin) interpolate(begin, row, first - begin, from(begin));
   if (end > last) interpolate(last, row, end - last, from(last));
   const std::array<float*, 3> to = from(first);
   for (int i = 0; i < last - first; ++i)
     for (std::size_t c = 0; c < 3; ++c) to[c][i] = pixels_.pixel(first + i, row)[c];
+  return true;
 }
 
 }  // namespace catchlight::render

@@ -30,19 +30,26 @@ class ReceiverImage {
   /// Four channels, to be blurred.
   Image& pixels() { return pixels_; }
 
-  /// Writes the ratio of the frame's pixels (x, y) to (x + count - 1, y), a plane a channel. May be called from several threads.
-  void read_row(int x, int y, int count, const std::array<float*, 3>& ratio) const;
+  /// The box around the frame's pixels that are in shadow.
+  PixelRect shadowed() const;
+
+  /// Writes the ratio of the frame's pixels (x, y) to (x + count - 1, y), a plane a channel. False where none is in shadow. May
+  /// be called from several threads.
+  bool read_row(int x, int y, int count, const std::array<float*, 3>& ratio) const;
 
  private:
   class Seen;
   struct Span {
     int begin = 0, end = 0;
+    bool empty() const { return end == 0; }
+    void add(const Span& other);
   };
 
   std::size_t corner(int column, int row) const { return static_cast<std::size_t>(row) * (columns_ + 1) + column; }
   PixelRect cell(int column, int row) const;
   bool is_bent(int column, int row) const;
   bool is_smooth(int column, int row) const;
+  void find_shadowed();
   void find_sharp();
   std::vector<Span> around_sharp(int margin_px) const;
   void draw_cell(const Seen& seen, int column, int row);
@@ -52,7 +59,8 @@ class ReceiverImage {
   int columns_ = 0, rows_ = 0;                 ///< cells
   std::array<std::vector<float>, 3> corners_;  ///< a plane a channel
   std::vector<char> is_bent_;                  ///< a corner each
-  std::vector<Span> sharp_cells_, blurred_;    ///< columns of cells, a row of them each; the latter are read from `pixels`
+  // Columns of cells, a row of them each: in shadow, sharp, and blurred, which are read from `pixels`.
+  std::vector<Span> shadowed_cells_, sharp_cells_, blurred_;
   std::vector<PixelRect> sharp_;
   Image pixels_;
 };

@@ -42,6 +42,7 @@ class PlateComposite : public ::testing::Test {
     images.shadow = [&](int x, int y, int count, const std::array<float*, 3>& ratio) {
       for (int i = 0; i < count; ++i)
         for (std::size_t c = 0; c < 3; ++c) ratio[c][i] = shadow_.pixel(x + i, y)[c];
+      return true;
     };
     images.passed_at_tag = 1;
     images.glare = glare_;
