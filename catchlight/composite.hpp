@@ -5,6 +5,7 @@
 
 #include "catchlight/image.hpp"
 #include "catchlight/pixel_rect.hpp"
+#include "catchlight/plate.hpp"
 #include "catchlight/tone_curve.hpp"
 #include "catchlight/util/raw_vector.hpp"
 
@@ -24,6 +25,7 @@ Image recompose(const Layers& layers);
 struct Composite {
   PixelRect rect;         ///< empty: nothing virtual in sight
   RawVector<float> rgba;  ///< row-major within rect
+  Plate plate;            ///< what it is drawn over, at least within rect; empty where the renderer did not keep it
   bool glare_drawn = false;
   PixelRect glare_rect;  ///< what glare reaches, where it is drawn
   std::optional<Layers> layers;

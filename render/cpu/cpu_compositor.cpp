@@ -208,6 +208,7 @@ Composite CpuCompositor::Impl::render(const FrameView& view, const PlateReader& 
   clock.pass("composite", [&] { draw_composite(view, plan, result); });
   if (plan.makes_layers) put_object_layers(images, *result.layers);
   if (plan.is_toned) apply_tone(view, plan, want_picture, result);
+  result.plate = plan.mirrors_receiver ? plate_light.take_plate() : std::move(plate);
   return result;
 }
 

@@ -117,7 +117,8 @@ CodeFromRgb::CodeFromRgb(const AVFrame& picture, const PixelLayout& layout) : ma
   offset_ = {full ? 0 : 16 * step, 128 * step, 128 * step};
 }
 
-void CodeFromRgb::row(const float* rgba, int count, const std::array<double*, 3>& codes) const {
+[[gnu::target_clones("avx2", "default")]] void CodeFromRgb::row(const float* rgba, int count,
+                                                                const std::array<double*, 3>& codes) const {
   constexpr int kMaxAtOnce = 64;  // so that the compiler sees plain arrays
   std::array<double, kMaxAtOnce> red, green, blue;
   for (int first = 0; first < count; first += kMaxAtOnce) {

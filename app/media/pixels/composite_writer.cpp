@@ -24,6 +24,7 @@ class ChangedPixels {
     const PixelRect& rect = composite_.rect;
     return x >= rect.x && y >= rect.y && x < rect.x + rect.width && y < rect.y + rect.height && at(x, y)[3] > 0.5f;
   }
+  const Plate& plate() const { return composite_.plate; }
   glm::dvec3 raw(int x, int y) const { return {at(x, y)[0], at(x, y)[1], at(x, y)[2]}; }
 
   glm::dvec3 rgb(int x, int y) const { return {code_of(at(x, y)[0]), code_of(at(x, y)[1]), code_of(at(x, y)[2])}; }
@@ -70,33 +71,87 @@ PixelRect blocks_of(const PixelLayout& layout, const PixelRect& rect, int width_
   return intersect({x, y, right - x, bottom - y}, {0, 0, width_px, height_px});
 }
 
+[[gnu::target_clones("avx2", "default")]] void mark_changed(const float* rgba, int count, std::uint8_t* changed) {
+  for (int i = 0; i < count; ++i) changed[i] = rgba[4 * i + 3] > 0.5f;
+}
+
+/// Adds each pair of values to one sum.
+template <class Value, class Sum>
+inline void add_pairs(const Value* values, std::size_t pairs, Sum* sums) {
+  for (std::size_t i = 0; i < pairs; ++i) sums[i] = sums[i] + values[2 * i] + values[2 * i + 1];
+}
+
+[[gnu::target_clones("avx2", "default")]] void add_code_pairs(const double* codes, std::size_t pairs, double* sums) {
+  add_pairs(codes, pairs, sums);
+}
+
 /// Unrounded codes of one row's pixels; from `begin` to before `end`, outside of which none has changed.
 struct CodeRow {
-  explicit CodeRow(int width) : changed(static_cast<std::size_t>(width)) {
-    codes.fill(std::vector<double>(static_cast<std::size_t>(width)));
+  /// Whole blocks of pixels may be read, also where the last one ends beyond the row.
+  CodeRow(int width, int shift) : changed(static_cast<std::size_t>(width + (1 << shift) - 1)) {
+    codes.fill(std::vector<double>(changed.size()));
   }
+  bool empty() const { return begin == end; }
+
   int begin = 0, end = 0;
   std::vector<std::uint8_t> changed;
   std::array<std::vector<double>, 3> codes;
 };
 
-/// Sums of the codes of the pixels that share a chroma sample, and how many of them changed: one row of such blocks.
-struct BlockRow {
-  explicit BlockRow(int blocks) : changed(static_cast<std::size_t>(blocks)) {
-    sums.fill(std::vector<double>(static_cast<std::size_t>(blocks)));
+/// What the pixels that share a chroma sample have in common: one row of such blocks.
+class BlockRow {
+ public:
+  BlockRow(int width, int shift) : shift_(shift), counts_(static_cast<std::size_t>((width + (1 << shift) - 1) >> shift)) {
+    means_.fill(std::vector<double>(counts_.size()));
+    is_whole_.resize(counts_.size());
   }
 
-  void add(const CodeRow& row, int shift) {
-    const auto begin = static_cast<std::size_t>(row.begin), end = static_cast<std::size_t>(row.end);
-    for (std::size_t x = begin; x < end; ++x) {
-      changed[x >> shift] += row.changed[x];
-      sums[0][x >> shift] += row.codes[1][x];
-      sums[1][x >> shift] += row.codes[2][x];
+  void clear() {
+    const auto reset = [&](auto& values) { std::fill(values.begin() + begin_, values.begin() + end_, 0); };
+    if (!empty()) reset(counts_), reset(means_[0]), reset(means_[1]);
+    begin_ = static_cast<std::ptrdiff_t>(counts_.size()), end_ = 0;
+  }
+
+  void add(const CodeRow& row) {
+    const std::ptrdiff_t begin = row.begin >> shift_, end = ((row.end - 1) >> shift_) + 1;
+    begin_ = std::min(begin_, begin), end_ = std::max(end_, end);
+    const auto first = static_cast<std::size_t>(begin), last = static_cast<std::size_t>(end), from = first << shift_;
+    if (shift_ == 1) {
+      add_pairs(&row.changed[from], last - first, &counts_[first]);
+      for (std::size_t i = 0; i < 2; ++i) add_code_pairs(&row.codes[i + 1][from], last - first, &means_[i][first]);
+      return;
+    }
+    for (std::size_t x = from; x < last << shift_; ++x) {
+      counts_[x >> shift_] += row.changed[x];
+      for (std::size_t i = 0; i < 2; ++i) means_[i][x >> shift_] += row.codes[i + 1][x];
     }
   }
 
-  std::vector<int> changed;
-  std::array<std::vector<double>, 2> sums;
+  /// Sums become means, as of `height` rows of pixels of which the last block may lack some; calls on_part(block) for each
+  /// that changed in part.
+  template <class OnPart>
+  void finish(int width, int height, const OnPart& on_part) {
+    for (std::ptrdiff_t i = begin_; i < end_; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      const int pixels = height * std::min(1 << shift_, width - (static_cast<int>(i) << shift_));
+      is_whole_[at] = counts_[at] == pixels;
+      for (std::vector<double>& means : means_) means[at] /= pixels;
+      if (counts_[at] != 0 && counts_[at] != pixels) on_part(static_cast<int>(i));
+    }
+  }
+
+  bool empty() const { return begin_ >= end_; }
+  int begin() const { return static_cast<int>(begin_); }
+  int count() const { return static_cast<int>(end_ - begin_); }
+  const double* means(std::size_t component) const { return means_[component].data() + begin_; }
+  const std::uint8_t* is_whole() const { return is_whole_.data() + begin_; }
+
+ private:
+  int shift_;
+  std::ptrdiff_t begin_ = 0, end_ = 0;  ///< blocks outside of which none has changed
+  std::vector<int> counts_;             ///< of pixels that changed
+  std::array<std::vector<double>, 2> means_;
+  std::vector<std::uint8_t> is_whole_;  ///< changed in all its pixels
 };
 
 class CompositeWriter {
@@ -123,9 +178,9 @@ class CompositeWriter {
 
   /// Formats with a sample of every component for every pixel.
   void write_full_resolution() const {
-    CodeRow row(rect_.width);
+    CodeRow row(rect_.width, 0);
     for (int y = rect_.y; y < rect_.y + rect_.height; ++y) {
-      read(rect_.x, y, row);
+      read(rect_.x, y, rect_.width, row);
       for (std::size_t i = 0; i < planes_.size(); ++i) write(rect_.x, y, row, i);
     }
   }
@@ -134,14 +189,19 @@ class CompositeWriter {
   void write_subsampled(const PlateReader& plate_reader) const {
     const PixelRect blocks = blocks_of(layout_, rect_, picture_.width, picture_.height);
     const int block_height = 1 << layout_.chroma_shift_y;
+    CodeRow row(blocks.width, layout_.chroma_shift_x);
+    BlockRow block_row(blocks.width, layout_.chroma_shift_x);
     std::vector<PixelRect> partial;
     for (int y = blocks.y; y < blocks.y + blocks.height; y += block_height)
-      write_block_row({blocks.x, y, blocks.width, std::min(block_height, picture_.height - y)}, partial);
+      write_block_row({blocks.x, y, blocks.width, std::min(block_height, picture_.height - y)}, row, block_row, partial);
     if (partial.empty()) return;
     PixelRect bounds;
     for (const PixelRect& block : partial) bounds = unite(bounds, block);
-    const Plate plate = plate_reader(bounds);
-    for (const PixelRect& block : partial) move_chroma(plate, block);
+    bounds = intersect(bounds, rect_);
+    const Plate& drawn_over = pixels_.plate();
+    const bool is_there = intersect(bounds, drawn_over.rect) == bounds;
+    const Plate read = is_there ? Plate{} : plate_reader(bounds);
+    for (const PixelRect& block : partial) move_chroma(is_there ? drawn_over : read, block);
   }
 
  private:
@@ -149,17 +209,16 @@ class CompositeWriter {
 
   int rounded(double code) const { return static_cast<int>(std::lround(std::clamp(code, 0.0, code_from_rgb_.max_code()))); }
 
-  /// The codes of the pixels from column `x` on, as many as the row holds.
-  void read(int x, int y, CodeRow& row) const {
+  /// The codes of `width` pixels from column `x` on.
+  void read(int x, int y, int width, CodeRow& row) const {
     row.begin = row.end = 0;
     if (y < rect_.y || y >= rect_.y + rect_.height) return;
-    const int left = std::max(rect_.x - x, 0);
-    const int right = std::min(rect_.x + rect_.width - x, static_cast<int>(row.changed.size()));
+    const int left = std::max(rect_.x - x, 0), right = std::min(rect_.x + rect_.width - x, width);
     const float* rgba = pixels_.at(x + left, y);
-    for (int i = left; i < right; ++i) row.changed[static_cast<std::size_t>(i)] = rgba[4 * (i - left) + 3] > 0.5f;
-    const auto is_changed = [&](int i) { return row.changed[static_cast<std::size_t>(i)] != 0; };
-    for (row.begin = left; row.begin < right && !is_changed(row.begin);) ++row.begin;
-    for (row.end = right; row.end > row.begin && !is_changed(row.end - 1);) --row.end;
+    std::uint8_t* changed = row.changed.data();
+    mark_changed(rgba, right - left, changed + left);
+    row.begin = static_cast<int>(std::find(changed + left, changed + right, 1) - changed);
+    for (row.end = right; row.end > row.begin && changed[row.end - 1] == 0;) --row.end;
     const auto codes = [&](std::size_t component) { return row.codes[component].data() + row.begin; };
     code_from_rgb_.row(rgba + 4 * (row.begin - left), row.end - row.begin, {codes(0), codes(1), codes(2)});
   }
@@ -170,24 +229,22 @@ class CompositeWriter {
   }
 
   /// Luma of a row of blocks, and the chroma of those that changed as a whole; adds those that changed in part to `partial`.
-  void write_block_row(const PixelRect& area, std::vector<PixelRect>& partial) const {
-    const int shift = layout_.chroma_shift_x, block_width = 1 << shift;
-    CodeRow row(area.width);
-    BlockRow blocks((area.width + block_width - 1) >> shift);
+  void write_block_row(const PixelRect& area, CodeRow& row, BlockRow& blocks, std::vector<PixelRect>& partial) const {
+    const int shift = layout_.chroma_shift_x;
+    blocks.clear();
     for (int y = area.y; y < area.y + area.height; ++y) {
-      read(area.x, y, row);
+      read(area.x, y, area.width, row);
+      if (row.empty()) continue;
       write(area.x, y, row, 0);
-      blocks.add(row, shift);
+      blocks.add(row);
     }
-    for (std::size_t i = 0; i < blocks.changed.size(); ++i) {
-      if (blocks.changed[i] == 0) continue;
-      const PixelRect block = intersect({area.x + (static_cast<int>(i) << shift), area.y, block_width, area.height}, area);
-      const int pixels = block.width * block.height;
-      if (blocks.changed[i] == pixels)
-        set_chroma(block, blocks.sums[0][i] / pixels, blocks.sums[1][i] / pixels);
-      else
-        partial.push_back(block);
-    }
+    if (blocks.empty()) return;
+    blocks.finish(area.width, area.height, [&](int i) {
+      partial.push_back(intersect({area.x + (i << shift), area.y, 1 << shift, area.height}, area));
+    });
+    const int x = (area.x >> shift) + blocks.begin(), y = area.y >> layout_.chroma_shift_y;
+    for (std::size_t i = 0; i < 2; ++i)
+      planes_[i + 1].set_codes(x, y, blocks.means(i), blocks.is_whole(), blocks.count(), code_from_rgb_.max_code());
   }
 
   void set_chroma(const PixelRect& block, double blue, double red) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <utility>
 #include <vector>
 
 #include "catchlight/plate.hpp"
@@ -21,6 +22,9 @@ class PlateLight {
   glm::vec3 sample(const glm::vec2& place, float level) const;
 
   const Plate& plate() const { return plate_; }
+
+  /// Gives the plate back: from then on there is no light to sample.
+  Plate take_plate() { return std::move(plate_); }
 
  private:
   struct Level {

@@ -97,6 +97,17 @@ TEST_P(EveryFormat, ALargerRectangleOfTheSamePixelsWritesTheSame) {
   EXPECT_EQ(samples_of(before.with_composite(small).picture()), samples_of(before.with_composite(large).picture()));
 }
 
+/// A plate that comes with the composite saves reading it again, be it all that is wanted or a part.
+TEST_P(EveryFormat, ThePlateMayComeWithTheComposite) {
+  const Frame before = frame_of(noise_frame(GetParam(), kWidth, kHeight, 3));
+  Composite composite = random_composite({5, 7, 33, 21}, 0.7, 11);
+  const auto expected = samples_of(before.with_composite(composite).picture());
+  for (const PixelRect& held : {composite.rect, PixelRect{0, 0, kWidth, kHeight}, PixelRect{5, 7, 33, 20}}) {
+    composite.plate = before.rgb(held);
+    EXPECT_EQ(samples_of(before.with_composite(composite).picture()), expected);
+  }
+}
+
 TEST_P(EveryFormat, TheDecodersFrameItselfStaysAsItWas) {
   const Frame before = frame_of(noise_frame(GetParam(), kWidth, kHeight, 3));
   const auto samples = samples_of(before.picture());
