@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "catchlight/util/parallel.hpp"
+#include "render/math/float4.hpp"
 
 namespace catchlight::render {
 namespace {
@@ -25,7 +26,18 @@ glm::vec3 bilinear(const glm::dvec2& position, const Fetch& fetch) {
   return glm::mix(glm::mix(fetch(x, y), fetch(x + 1, y), right), glm::mix(fetch(x, y + 1), fetch(x + 1, y + 1), right), down);
 }
 
+/// What bilinear() gives well within an image, a register a texel. Reads a float beyond the four texels.
+glm::vec3 blend_of_four(const float* upper, const float* lower, float right, float down) {
+  const auto mixed = [](Float4 a, Float4 b, float share) { return a * (1 - share) + b * share; };
+  return rgb(mixed(mixed(load(upper), load(upper + 3), right), mixed(load(lower), load(lower + 3), right), down));
+}
+
 glm::vec3 sample_latlong(const Image& image, const glm::dvec2& position) {
+  if (position.x >= 1 && position.y >= 0 && position.x < image.width - 3 && position.y < image.height - 1) {
+    const int x = static_cast<int>(position.x), y = static_cast<int>(position.y);
+    return blend_of_four(image.pixel(x, y), image.pixel(x, y + 1), static_cast<float>(position.x - x),
+                         static_cast<float>(position.y - y));
+  }
   return bilinear(position, [&](int x, int y) {
     y = std::clamp(y, 0, image.height - 1);
     // The outermost columns are the same meridian.

@@ -19,15 +19,19 @@ struct LitRow {
 
 LitRow lit_row(const Probe& probe, const TexelRows& texels, int y) {
   LitRow row;
-  for (auto* values : {&row.x, &row.y, &row.z, &row.light[0], &row.light[1], &row.light[2]}) values->reserve(probe.image.width);
+  const std::array<std::vector<float>*, 6> all{&row.x, &row.y, &row.z, &row.light[0], &row.light[1], &row.light[2]};
+  for (auto* values : all) values->resize(probe.image.width);
+  std::size_t count = 0;
   for (int x = 0; x < probe.image.width; ++x) {
     const auto direction = texels.direction(x, y);
     if (!direction) continue;
-    row.x.push_back(static_cast<float>(direction->x)), row.y.push_back(static_cast<float>(direction->y));
-    row.z.push_back(static_cast<float>(direction->z));
+    row.x[count] = static_cast<float>(direction->x), row.y[count] = static_cast<float>(direction->y);
+    row.z[count] = static_cast<float>(direction->z);
     const auto solid_angle = static_cast<float>(texels.solid_angle(x, y));
-    for (int c = 0; c < 3; ++c) row.light[c].push_back(solid_angle * probe.image.pixel(x, y)[c]);
+    for (int c = 0; c < 3; ++c) row.light[c][count] = solid_angle * probe.image.pixel(x, y)[c];
+    ++count;
   }
+  for (auto* values : all) values->resize(count);
   return row;
 }
 

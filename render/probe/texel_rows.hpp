@@ -29,8 +29,14 @@ class TexelRows {
  public:
   TexelRows(ProbeLayout layout, int width, int height);
 
-  std::optional<glm::dvec3> direction(int x, int y) const;
-  double solid_angle(int x, int y) const;
+  std::optional<glm::dvec3> direction(int x, int y) const {
+    if (sin_latitude_.empty()) return direction_from_texel(layout_, width_, height_, x, y);
+    return glm::dvec3(sin_longitude_[x] * cos_latitude_[y], sin_latitude_[y], cos_longitude_[x] * cos_latitude_[y]);
+  }
+  double solid_angle(int x, int y) const {
+    if (sin_latitude_.empty()) return texel_solid_angle(layout_, width_, height_, x, y);
+    return x == 0 || x == width_ - 1 ? outer_column_sr_[y] : inner_column_sr_[y];
+  }
 
  private:
   ProbeLayout layout_;
