@@ -6,10 +6,14 @@
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfThreading.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <glm/glm.hpp>
+#include <system_error>
+#include <thread>
 
 #include "catchlight/error.hpp"
 #include "catchlight/image.hpp"
@@ -55,6 +59,14 @@ void convert_to_rec709(Image& image, const Imf::Chromaticities& from) {
   }
 }
 
+/// Inflating a large picture takes most of the time of reading it; for a small one, starting threads would.
+void use_all_cores_for_large(const std::string& path) {
+  constexpr std::uintmax_t kLarge = std::uintmax_t{4} << 20;
+  std::error_code missing;
+  const std::uintmax_t bytes = std::filesystem::file_size(path, missing);
+  if (!missing && bytes > kLarge) Imf::setGlobalThreadCount(static_cast<int>(std::thread::hardware_concurrency()));
+}
+
 std::vector<std::string> channels_to_read(const std::string& path, const Imf::ChannelList& list) {
   std::vector<std::string> names;
   if (list.findChannel("R") && list.findChannel("G") && list.findChannel("B")) {
@@ -76,6 +88,7 @@ std::vector<std::string> channels_to_read(const std::string& path, const Imf::Ch
 }
 
 ExrPicture read(const std::string& path) {
+  use_all_cores_for_large(path);
   Imf::InputFile file(path.c_str());
   const Imf::Header& header = file.header();
   const Imath::Box2i window = header.dataWindow();
