@@ -38,12 +38,12 @@ void MirrorRays::set_frame(const Surroundings& around, const VertexLight& light,
 }
 
 /// Finds what each walk meets next, beyond the skin.
-void MirrorRays::find_hits(Batch& batch) const {
+void MirrorRays::find_hits(Batch& batch, Coherence coherence) const {
   RayStream& stream = batch.stream;
   stream.resize(batch.walks.size());
   for (std::size_t i = 0; i < batch.walks.size(); ++i)
     stream.set(i, batch.walks[i].origin_m, batch.walks[i].direction, 0, std::numeric_limits<float>::infinity());
-  scene_.closest_hits(stream, Coherence::incoherent);
+  scene_.closest_hits(stream, coherence);
   for (int round = 0; round < kMaxSkins; ++round) {
     batch.again.clear();
     for (std::size_t i = 0; i < stream.size(); ++i)
@@ -106,7 +106,7 @@ void MirrorRays::trace(std::span<MirrorRay> rays) const {
   for (std::size_t i = 0; i < rays.size(); ++i)
     batch.walks.push_back({i, rays[i].origin_m, rays[i].direction, glm::vec3(1), rays[i].spread, rays[i].roughness});
   for (int bounce = 0; !batch.walks.empty(); ++bounce) {
-    find_hits(batch);
+    find_hits(batch, bounce == 0 ? Coherence::coherent : Coherence::incoherent);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < batch.walks.size(); ++i) {
       Walk walk = batch.walks[i];
@@ -127,7 +127,7 @@ void MirrorRays::look(std::span<MirrorRay> rays) const {
   batch.walks.clear();
   for (std::size_t i = 0; i < rays.size(); ++i)
     batch.walks.push_back({i, rays[i].origin_m, rays[i].direction, glm::vec3(1), 0, 0});
-  find_hits(batch);
+  find_hits(batch, Coherence::coherent);
   for (std::size_t i = 0; i < rays.size(); ++i) rays[i].meets_object = batch.stream.meets(i);
 }
 

@@ -48,7 +48,7 @@ class MirrorRays {
   struct Walk;
   struct Batch;
 
-  void find_hits(Batch& batch) const;
+  void find_hits(Batch& batch, Coherence coherence) const;
   bool meet(Walk& walk, const RayStream& hits, std::size_t at, MirrorRay& ray, int bounce) const;
 
   const Mesh& mesh_;
