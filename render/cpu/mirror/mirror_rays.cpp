@@ -10,6 +10,7 @@ namespace catchlight::render {
 namespace {
 
 constexpr int kMaxSkins = 4;
+constexpr std::size_t kFetchedAhead = 8;
 
 }  // namespace
 
@@ -109,6 +110,11 @@ void MirrorRays::trace(std::span<MirrorRay> rays) const {
     find_hits(batch, bounce == 0 ? Coherence::coherent : Coherence::incoherent);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < batch.walks.size(); ++i) {
+      const std::size_t ahead = std::min(i + kFetchedAhead, batch.walks.size() - 1);
+      if (bounce > 0 && !batch.stream.meets(ahead)) {
+        const Walk& next = batch.walks[ahead];
+        around_->prefetch(next.origin_m, next.direction, next.roughness, true);
+      }
       Walk walk = batch.walks[i];
       MirrorRay& ray = rays[walk.ray];
       if (batch.stream.meets(i)) {

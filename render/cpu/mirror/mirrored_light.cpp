@@ -13,6 +13,8 @@ namespace {
 /// A polished surface's lobe is as wide as the pixel's footprint: so many rays smooth what it shows.
 constexpr int kPolishedRays = 4;
 constexpr std::size_t kPointsAtOnce = 256;
+/// So many rays ahead of one that is looked up, what it will read is fetched.
+constexpr std::size_t kFetchedAhead = 8;
 
 /// Neighbours share rays where their mirror directions differ by less than so many alphas, and they lie as deep to this share.
 /// Two take half of a lobe each, whose patterns would show side by side: they share farther.
@@ -198,41 +200,47 @@ void MirroredLight::look_for_object(const Frame& frame) {
     }
 }
 
+/// Adds what the rays see to the sums of their points.
+void MirroredLight::add_seen(const Frame& frame, const PointRays& seen) {
+  const auto with_lights = [&](const SurfacePoint& point) { return !(frame.has_highlights && is_rough(point)); };
+  const auto& [rays, of] = seen;
+  for (std::size_t k = 0; k < rays.size(); ++k) {
+    const std::size_t ahead = std::min(k + kFetchedAhead, rays.size() - 1);
+    if (!rays[ahead].meets_object)
+      frame.around.prefetch(rays[ahead].origin_m, rays[ahead].direction, rays[ahead].roughness,
+                            with_lights(frame.surface.points[of[ahead].point]));
+    const MirrorRay& ray = rays[k];
+    const auto [point, weight] = of[k];
+    sums_[point].light +=
+        weight * (ray.meets_object ? ray.radiance
+                                   : frame.around.radiance(ray.origin_m, ray.direction, ray.spread, ray.roughness,
+                                                           with_lights(frame.surface.points[point])));
+    sums_[point].weight += weight;
+  }
+}
+
 /// Finds what the points' own rays see: the sum of their light, and of their weights.
 void MirroredLight::trace(const Frame& frame, std::size_t first, std::size_t last) {
-  thread_local std::vector<MirrorRay> rays;
+  thread_local PointRays near_object, free;
   thread_local std::vector<int> chosen;
-  thread_local std::vector<std::pair<std::size_t, float>> of;
-  rays.clear(), of.clear();
-  const auto add = [&](std::size_t index, float weight, const glm::vec3& radiance) {
-    sums_[index].light += weight * radiance;
-    sums_[index].weight += weight;
-  };
-  const auto with_lights = [&](std::size_t index) { return !(frame.has_highlights && is_rough(frame.surface.points[index])); };
-  const auto around = [&](std::size_t index, const MirrorRay& ray) {
-    return frame.around.radiance(ray.origin_m, ray.direction, ray.spread, ray.roughness, with_lights(index));
-  };
+  for (PointRays* some : {&near_object, &free}) some->rays.clear(), some->of.clear();
   for (std::size_t i = first; i < last; ++i) {
     const SurfacePoint& point = frame.surface.points[i];
     sums_[i] = {};
     if (!mirrors(point)) continue;
     choose_rays(frame, i, chosen);
     const Lobe lobe = lobe_of(frame, i);
-    const std::size_t others = rays.size();
+    auto& [rays, of] = lobe_rays_ > 0 && near_hit_[point.pixel] ? near_object : free;
     for (const int number : chosen) {
       const auto [direction, weight] = lobe.at(number);
       if (weight == 0) continue;
       rays.push_back({rays_.start(point.position_m, point.normal), direction, lobe.spread, lobe.share, number});
-      of.emplace_back(i, weight);
-      frame.around.prefetch(rays.back().origin_m, direction, lobe.share, with_lights(i));
+      of.push_back({i, weight});
     }
-    if (lobe_rays_ > 0 && near_hit_[point.pixel]) continue;
-    for (std::size_t k = others; k < rays.size(); ++k) add(i, of[k].second, around(i, rays[k]));
-    rays.resize(others), of.resize(others);
   }
-  rays_.trace(rays);
-  for (std::size_t k = 0; k < rays.size(); ++k)
-    add(of[k].first, of[k].second, rays[k].meets_object ? rays[k].radiance : around(of[k].first, rays[k]));
+  rays_.trace(near_object.rays);
+  add_seen(frame, near_object);
+  add_seen(frame, free);
 }
 
 /// What the point's rays and those of its neighbours find.

@@ -33,6 +33,15 @@ class MirroredLight {
     const Surroundings& around;
     bool has_highlights;
   };
+  /// Rays of some points' lobes.
+  struct PointRays {
+    struct Of {
+      std::size_t point;
+      float weight;  ///< in its point's sum
+    };
+    std::vector<MirrorRay> rays;
+    std::vector<Of> of;
+  };
   struct Lobe;
   /// A lobe's directions before the surface gives them their place.
   struct LobePoint {
@@ -48,6 +57,7 @@ class MirroredLight {
   void find_mirror_directions(const Frame& frame);
   void find_footprints(const Frame& frame, std::size_t index);
   void look_for_object(const Frame& frame);
+  void add_seen(const Frame& frame, const PointRays& seen);
   void trace(const Frame& frame, std::size_t first, std::size_t last);
   Sum sum_around(const Frame& frame, std::size_t index, int sharers) const;
   glm::vec3 shared(const Frame& frame, std::size_t index) const;
