@@ -27,9 +27,10 @@ namespace {
 
 }  // namespace
 
-CommandResult run_catchlight(const std::vector<std::string>& arguments, const std::map<std::string, std::string>& environment) {
+CommandResult run_program(const std::string& program, const std::vector<std::string>& arguments,
+                          const std::map<std::string, std::string>& environment) {
   const TemporaryFolder folder;
-  std::vector<std::string> all{CATCHLIGHT_EXECUTABLE};
+  std::vector<std::string> all{program};
   all.insert(all.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
   for (std::string& argument : all) pointers.push_back(argument.data());
@@ -40,6 +41,10 @@ CommandResult run_catchlight(const std::vector<std::string>& arguments, const st
   int status = 0;
   waitpid(child, &status, 0);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(folder.path("stdout")), read_text(folder.path("stderr"))};
+}
+
+CommandResult run_catchlight(const std::vector<std::string>& arguments, const std::map<std::string, std::string>& environment) {
+  return run_program(CATCHLIGHT_EXECUTABLE, arguments, environment);
 }
 
 int count_of(std::string_view part, std::string_view text) {

@@ -13,6 +13,10 @@ struct CommandResult {
   std::string output, error;
 };
 
+/// A program with these arguments; `environment` is set on top of ours.
+CommandResult run_program(const std::string& program, const std::vector<std::string>& arguments,
+                          const std::map<std::string, std::string>& environment);
+
 /// `catchlight` with these arguments; `environment` is set on top of ours.
 CommandResult run_catchlight(const std::vector<std::string>& arguments,
                              const std::map<std::string, std::string>& environment = {});
