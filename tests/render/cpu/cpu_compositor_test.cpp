@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <thread>
 
+#include "catchlight/color.hpp"
 #include "catchlight/error.hpp"
 #include "render/math/sh.hpp"
 #include "render/probe/light_samples.hpp"
@@ -145,6 +146,39 @@ TEST(CpuCompositor, GivesTheSameBytesWhateverWasDrawnBefore) {
   odd.effects.defocus_px2 = 4;
   used.render(odd, plate_of);
   EXPECT_EQ(used.render(view_of(), plate_of).rgba, CpuCompositor(scene, {}).render(view_of(), plate_of).rgba);
+}
+
+/// A still camera's pose differs from frame to frame by what tracking does not know: some hundredths of a pixel. Outlines step
+/// with their samples; within them, rays must not show.
+TEST(CpuCompositor, RaysDoNotFlickerWhileTheCameraStandsStill) {
+  for (const float roughness : {0.0f, 0.15f, 0.25f, 0.5f}) {
+    RenderScene scene = scene_of(still());
+    scene.mesh.materials.front().roughness = roughness;
+    CpuCompositor compositor(scene, {});
+    FrameView view = view_of();
+    view.effects.noise.enabled = false;
+    const auto draw = [&] { return *compositor.render(view, plate_of, true).layers; };
+    const Image first = draw().object;
+    const auto is_within = [&](int x, int y) {
+      bool covered = x > 0 && y > 0 && x + 1 < first.width && y + 1 < first.height;
+      for (int i = 0; i < 9 && covered; ++i) covered = first.pixel(x + i % 3 - 1, y + i / 3 - 1)[3] == 1;
+      return covered;
+    };
+    double squares = 0;
+    int values = 0;
+    for (const glm::dvec2& shift_px : {glm::dvec2(0.02, 0), {0, 0.02}, {-0.015, 0.015}}) {
+      view.camera_from_tag.translation_m = {0.4 / 160 * shift_px, 0.4};
+      const Image moved = draw().object;
+      for (int y = 0; y < first.height; ++y)
+        for (int x = 0; x < first.width; ++x)
+          for (int c = 0; c < 3 && is_within(x, y); ++c) {
+            const auto code = [&](const Image& light) { return 255 * srgb_from_linear(std::min(light.pixel(x, y)[c], 1.0f)); };
+            squares += std::pow(code(moved) - code(first), 2), ++values;
+          }
+    }
+    EXPECT_GT(values, 3000);
+    EXPECT_LE(std::sqrt(squares / values), 0.3) << "roughness " << roughness;
+  }
 }
 
 TEST(CpuCompositor, LightThatTurnsEveryFrameIsTheLightTurned) {
