@@ -48,12 +48,12 @@ class PlateComposite {
         static_cast<std::size_t>(block.y - plate_.rect.y) * plate_.rect.width + (block.x - plate_.rect.x);
     const bool wants_all = as_light_ || result_.layers;
     const bool is_touched = (read_virtual(block) || wants_all) && find_touched(block);
-    response_.read_codes(plate_, in_plate, block.count, block.code);
     if (!is_touched && !wants_all) {
+      response_.read(plate_, in_plate, block.count, block.code);
       write(block, block.code, nullptr);
       return;
     }
-    response_.read_linear(plate_, in_plate, block.count, block.background);
+    response_.read(plate_, in_plate, block.count, block.code, block.background);
     composite_light(levels_, block);
     if (view_.effects.noise.enabled) add_missing_noise(view_.effects.noise, block);
     if (as_light_) {

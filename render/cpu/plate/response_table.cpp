@@ -61,28 +61,32 @@ Float4 ResponseTable::linear_of_floats(const Plate& plate, std::size_t pixel) co
 }
 
 template <typename Code>
-void ResponseTable::look_up(const Tables& tables, const Plate& plate, std::size_t first_pixel, int count, Planes& values) {
+void ResponseTable::look_up(const Plate& plate, std::size_t first_pixel, int count, Planes& codes, Planes* linear) const {
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
     const auto code = triple<Code>(plate, first_pixel + i);
-    for (std::size_t c = 0; c < 3; ++c) values[c][i] = tables[c][code[c]];
+    for (std::size_t c = 0; c < 3; ++c) {
+      codes[c][i] = codes_[c][code[c]];
+      if (linear) (*linear)[c][i] = linear_[c][code[c]];
+    }
   }
 }
 
-void ResponseTable::read_codes(const Plate& plate, std::size_t first_pixel, int count, Planes& codes) const {
-  if (plate.format == Plate::Format::rgb_u8) return look_up<std::uint8_t>(codes_, plate, first_pixel, count, codes);
-  if (plate.format == Plate::Format::rgb_u16) return look_up<std::uint16_t>(codes_, plate, first_pixel, count, codes);
+void ResponseTable::read(const Plate& plate, std::size_t first_pixel, int count, Planes& codes) const {
+  if (plate.format == Plate::Format::rgb_u8) return look_up<std::uint8_t>(plate, first_pixel, count, codes, nullptr);
+  if (plate.format == Plate::Format::rgb_u16) return look_up<std::uint16_t>(plate, first_pixel, count, codes, nullptr);
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
     const auto code = triple<float>(plate, first_pixel + i);
     for (std::size_t c = 0; c < 3; ++c) codes[c][i] = code[c];
   }
 }
 
-void ResponseTable::read_linear(const Plate& plate, std::size_t first_pixel, int count, Planes& linear) const {
-  if (plate.format == Plate::Format::rgb_u8) return look_up<std::uint8_t>(linear_, plate, first_pixel, count, linear);
-  if (plate.format == Plate::Format::rgb_u16) return look_up<std::uint16_t>(linear_, plate, first_pixel, count, linear);
-  for (int i = 0; i < count; ++i) {
-    const Float4 light = linear_of_floats(plate, first_pixel + static_cast<std::size_t>(i));
-    for (int c = 0; c < 3; ++c) linear[static_cast<std::size_t>(c)][static_cast<std::size_t>(i)] = light[c];
+void ResponseTable::read(const Plate& plate, std::size_t first_pixel, int count, Planes& codes, Planes& linear) const {
+  if (plate.format == Plate::Format::rgb_u8) return look_up<std::uint8_t>(plate, first_pixel, count, codes, &linear);
+  if (plate.format == Plate::Format::rgb_u16) return look_up<std::uint16_t>(plate, first_pixel, count, codes, &linear);
+  read(plate, first_pixel, count, codes);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    const Float4 light = linear_of_floats(plate, first_pixel + i);
+    for (std::size_t c = 0; c < 3; ++c) linear[c][i] = light[static_cast<int>(c)];
   }
 }
 

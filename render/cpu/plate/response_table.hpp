@@ -26,9 +26,9 @@ class ResponseTable {
     return linear_of_floats(plate, pixel);
   }
 
-  /// The codes of `count` pixels of a block, and their light.
-  void read_codes(const Plate& plate, std::size_t first_pixel, int count, Planes& codes) const;
-  void read_linear(const Plate& plate, std::size_t first_pixel, int count, Planes& linear) const;
+  /// The codes of `count` pixels of a block, and their light too.
+  void read(const Plate& plate, std::size_t first_pixel, int count, Planes& codes) const;
+  void read(const Plate& plate, std::size_t first_pixel, int count, Planes& codes, Planes& linear) const;
 
   /// The codes of a channel's light, to a 20 000th of a code's range between 0 and 16; exact beyond and for curves from tables.
   void code(const Planes& linear, int channel, int count, Planes& codes) const;
@@ -50,7 +50,7 @@ class ResponseTable {
   }
 
   template <typename Code>
-  static void look_up(const Tables& tables, const Plate& plate, std::size_t first_pixel, int count, Planes& values);
+  void look_up(const Plate& plate, std::size_t first_pixel, int count, Planes& codes, Planes* linear) const;
   Float4 linear_of_floats(const Plate& plate, std::size_t pixel) const;
   float exact_code(float linear, int channel) const;
 

@@ -123,8 +123,7 @@ void ReceiverImage::find_sharp() {
   }
 }
 
-std::vector<ReceiverImage::Span> ReceiverImage::around_sharp(int margin_px) const {
-  const int margin = whole_cells(margin_px);
+std::vector<ReceiverImage::Span> ReceiverImage::around_sharp(int margin) const {
   std::vector<Span> around(sharp_cells_.size());
   for (int row = 0; row < rows_; ++row) {
     const Span& sharp = sharp_cells_[static_cast<std::size_t>(row)];
@@ -176,8 +175,8 @@ void ReceiverImage::draw(const FrameView& view, const FramePlan& plan, const Pix
     }
   });
   find_sharp();
-  blurred_ = around_sharp(reach_px);
-  const std::vector<Span> drawn = around_sharp(2 * reach_px);  // what the blurred pixels are made of
+  blurred_ = around_sharp(whole_cells(reach_px));
+  const std::vector<Span> drawn = around_sharp(2 * whole_cells(reach_px));  // what the blurred pixels are made of
   find_shadowed();
   pixels_.width = rect_.width, pixels_.height = rect_.height, pixels_.channels = 4;
   pixels_.data.resize(static_cast<std::size_t>(rect_.width) * rect_.height * 4);

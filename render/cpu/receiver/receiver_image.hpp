@@ -51,7 +51,7 @@ class ReceiverImage {
   bool is_smooth(int column, int row) const;
   void find_shadowed();
   void find_sharp();
-  std::vector<Span> around_sharp(int margin_px) const;
+  std::vector<Span> around_sharp(int margin) const;
   void draw_cell(const Seen& seen, int column, int row);
   void interpolate(int x, int y, int count, const std::array<float*, 3>& ratio) const;
 

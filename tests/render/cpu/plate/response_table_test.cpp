@@ -60,8 +60,7 @@ void expect_light_of_all_codes(Plate::Format format) {
     for (std::size_t i = 0; i <= std::numeric_limits<Code>::max(); ++i) {
       const Float4 light = table.linear(plate, i);
       Planes linear, codes;
-      table.read_linear(plate, i, 1, linear);
-      table.read_codes(plate, i, 1, codes);
+      table.read(plate, i, 1, codes, linear);
       for (std::size_t c = 0; c < 3; ++c) {
         const double expected = linear_from_code(response, static_cast<double>(i) / last, static_cast<int>(c));
         ASSERT_EQ(light[static_cast<int>(c)], static_cast<float>(expected)) << i;
@@ -88,8 +87,7 @@ TEST(ResponseTable, FindsTheLightOfFloatsBeyondBlackAndWhiteToo) {
     ResponseTable table;
     table.set(response, Plate::Format::rgb_f32);
     Planes linear, read;
-    table.read_linear(plate, 0, 2, linear);
-    table.read_codes(plate, 0, 2, read);
+    table.read(plate, 0, 2, read, linear);
     for (std::size_t i = 0; i < 5; ++i) {
       const auto expected = static_cast<float>(linear_from_code(response, codes[i], static_cast<int>(i % 3)));
       EXPECT_EQ(table.linear(plate, i / 3)[static_cast<int>(i % 3)], expected);
