@@ -187,6 +187,7 @@ void ReceiverImage::draw(const FrameView& view, const FramePlan& plan, const Pix
 
 /// From the cells' corners; (x, y) and what follows lie in `rect`.
 void ReceiverImage::interpolate(int x, int y, int count, const std::array<float*, 3>& ratio) const {
+  if (count == 0) return;
   const float down = static_cast<float>(y % kCell) / kCell;
   const std::size_t above = corner(x / kCell, y / kCell), below = above + static_cast<std::size_t>(columns_ + 1);
   const auto at_row = [&](const std::vector<float>& c, std::size_t i) {
@@ -210,24 +211,36 @@ void ReceiverImage::interpolate(int x, int y, int count, const std::array<float*
 }
 
 bool ReceiverImage::read_row(int x, int y, int count, const std::array<float*, 3>& ratio) const {
-  for (float* plane : ratio) std::fill_n(plane, count, 1.0f);
-  if (y < rect_.y || y >= rect_.y + rect_.height) return false;
-  const int row = y - rect_.y, left = x - rect_.x;
-  const auto cells = static_cast<std::size_t>(row / kCell);
-  const int right = std::min(left + count, rect_.width);
-  const int begin = std::max(left, kCell * shadowed_cells_[cells].begin),
-            end = std::min(right, kCell * shadowed_cells_[cells].end);
-  if (begin >= end) return false;
-  const auto from = [&](int column) {
-    return std::array{ratio[0] + column - left, ratio[1] + column - left, ratio[2] + column - left};
+  const int row = y - rect_.y, left = x - rect_.x, right = left + count;
+  const bool is_inside = row >= 0 && row < rect_.height;
+  const auto within = [&](const std::vector<Span>& cells) {
+    const Span span = is_inside ? cells[static_cast<std::size_t>(row / kCell)] : Span{};
+    const int begin = std::clamp(kCell * span.begin, left, right), last = std::min(kCell * span.end, rect_.width);
+    return Span{begin, std::clamp(last, begin, right)};
   };
-  const int first = std::clamp(blurred_[cells].begin * kCell, begin, end),
-            last = std::clamp(blurred_[cells].end * kCell, first, end);
-  if (first > begin) interpolate(begin, row, first - begin, from(begin));
-  if (end > last) interpolate(last, row, end - last, from(last));
-  const std::array<float*, 3> to = from(first);
-  for (int i = 0; i < last - first; ++i)
-    for (std::size_t c = 0; c < 3; ++c) to[c][i] = pixels_.pixel(first + i, row)[c];
+  const auto from = [&](int column) {
+    const std::ptrdiff_t i = column - left;
+    return std::array{ratio[0] + i, ratio[1] + i, ratio[2] + i};
+  };
+  const Span shadowed = within(shadowed_cells_), blurred = within(blurred_);
+  const auto fill = [&](int begin, int end) {
+    for (float* plane : from(begin)) std::fill_n(plane, end - begin, 1.0f);
+  };
+  if (shadowed.begin == shadowed.end) {
+    fill(left, right);
+    return false;
+  }
+  fill(left, shadowed.begin);
+  if (blurred.begin == blurred.end) {
+    interpolate(shadowed.begin, row, shadowed.end - shadowed.begin, from(shadowed.begin));
+  } else {
+    interpolate(shadowed.begin, row, blurred.begin - shadowed.begin, from(shadowed.begin));
+    const std::array<float*, 3> to = from(blurred.begin);
+    for (int i = 0; i < blurred.end - blurred.begin; ++i)
+      for (std::size_t c = 0; c < 3; ++c) to[c][i] = pixels_.pixel(blurred.begin + i, row)[c];
+    interpolate(blurred.end, row, shadowed.end - blurred.end, from(blurred.end));
+  }
+  fill(shadowed.end, right);
   return true;
 }
 
