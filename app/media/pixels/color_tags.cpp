@@ -82,10 +82,10 @@ glm::dvec3 luma_weights(AVColorSpace tag) {
   }
 }
 
-[[gnu::target_clones("avx2", "default")]] void write_codes(const glm::dmat3& matrix, const glm::dvec3& offset, const float* rgba,
-                                                           int count, const std::array<double*, 3>& codes) {
+[[gnu::target_clones("avx2", "default")]] void write_codes(const glm::mat3& matrix, const glm::vec3& offset, const float* rgba,
+                                                           int count, const std::array<float*, 3>& codes) {
   constexpr int kMaxAtOnce = 64;  // so that the compiler sees plain arrays
-  std::array<double, kMaxAtOnce> red, green, blue;
+  std::array<float, kMaxAtOnce> red, green, blue;
   for (int first = 0; first < count; first += kMaxAtOnce) {
     const int pixels = std::min(kMaxAtOnce, count - first);
     for (int x = 0; x < pixels; ++x) {
@@ -94,8 +94,8 @@ glm::dvec3 luma_weights(AVColorSpace tag) {
       red[at] = code_of(pixel[0]), green[at] = code_of(pixel[1]), blue[at] = code_of(pixel[2]);
     }
     for (int i = 0; i < 3; ++i) {
-      double* to = codes[static_cast<std::size_t>(i)] + first;
-      const double from_red = matrix[0][i], from_green = matrix[1][i], from_blue = matrix[2][i], zero = offset[i];
+      float* to = codes[static_cast<std::size_t>(i)] + first;
+      const float from_red = matrix[0][i], from_green = matrix[1][i], from_blue = matrix[2][i], zero = offset[i];
       for (int x = 0; x < pixels; ++x) {
         const auto at = static_cast<std::size_t>(x);
         to[x] = from_red * red[at] + from_green * green[at] + from_blue * blue[at] + zero;
@@ -139,8 +139,8 @@ CodeFromRgb::CodeFromRgb(const AVFrame& picture, const PixelLayout& layout) : ma
   offset_ = {full ? 0 : 16 * step, 128 * step, 128 * step};
 }
 
-void CodeFromRgb::row(const float* rgba, int count, const std::array<double*, 3>& codes) const {
-  write_codes(matrix_, offset_, rgba, count, codes);
+void CodeFromRgb::row(const float* rgba, int count, const std::array<float*, 3>& codes) const {
+  write_codes(glm::mat3(matrix_), glm::vec3(offset_), rgba, count, codes);
 }
 
 }  // namespace catchlight::app

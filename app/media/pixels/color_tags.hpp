@@ -1,6 +1,7 @@
 // What a frame's colour tags mean in numbers. Private to app/media.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <glm/glm.hpp>
 
@@ -16,9 +17,8 @@ PlateColor plate_color(const AVFrame& picture);
 bool is_full_range(const AVFrame& picture, const PixelLayout& layout);
 
 /// An RGB code within 0 to 1; what is not a number becomes black rather than undefined.
-inline double code_of(float code) {
-  const float positive = code > 0 ? code : 0.0f;
-  return positive < 1 ? positive : 1.0f;
+inline float code_of(float code) {
+  return std::min(std::max(0.0f, code), 1.0f);
 }
 
 /// RGB codes (0..1) to the format's integer codes: Y Cb Cr, R G B, or Y alone. ITU-R BT.601, BT.709, BT.2020 (non-constant
@@ -31,7 +31,7 @@ class CodeFromRgb {
   glm::dvec3 operator()(const glm::dvec3& rgb) const { return matrix_ * rgb + offset_; }
 
   /// The same for a row of RGBA pixels, each kept within 0 to 1 first; a pointer a component.
-  void row(const float* rgba, int count, const std::array<double*, 3>& codes) const;
+  void row(const float* rgba, int count, const std::array<float*, 3>& codes) const;
 
   double max_code() const { return max_code_; }
 

@@ -81,7 +81,7 @@ inline void add_pairs(const Value* values, std::size_t pairs, Sum* sums) {
   for (std::size_t i = 0; i < pairs; ++i) sums[i] = sums[i] + values[2 * i] + values[2 * i + 1];
 }
 
-[[gnu::target_clones("avx2", "default")]] void add_code_pairs(const double* codes, std::size_t pairs, double* sums) {
+[[gnu::target_clones("avx2", "default")]] void add_code_pairs(const float* codes, std::size_t pairs, float* sums) {
   add_pairs(codes, pairs, sums);
 }
 
@@ -89,20 +89,20 @@ inline void add_pairs(const Value* values, std::size_t pairs, Sum* sums) {
 struct CodeRow {
   /// Whole blocks of pixels may be read, also where the last one ends beyond the row.
   CodeRow(int width, int shift) : changed(static_cast<std::size_t>(width + (1 << shift) - 1)) {
-    codes.fill(std::vector<double>(changed.size()));
+    codes.fill(std::vector<float>(changed.size()));
   }
   bool empty() const { return begin == end; }
 
   int begin = 0, end = 0;
   std::vector<std::uint8_t> changed;
-  std::array<std::vector<double>, 3> codes;
+  std::array<std::vector<float>, 3> codes;
 };
 
 /// What the pixels that share a chroma sample have in common: one row of such blocks.
 class BlockRow {
  public:
   BlockRow(int width, int shift) : shift_(shift), counts_(static_cast<std::size_t>((width + (1 << shift) - 1) >> shift)) {
-    means_.fill(std::vector<double>(counts_.size()));
+    means_.fill(std::vector<float>(counts_.size()));
     is_whole_.resize(counts_.size());
   }
 
@@ -131,26 +131,36 @@ class BlockRow {
   /// that changed in part.
   template <class OnPart>
   void finish(int width, int height, const OnPart& on_part) {
-    for (std::ptrdiff_t i = begin_; i < end_; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      const int pixels = height * std::min(1 << shift_, width - (static_cast<int>(i) << shift_));
-      is_whole_[at] = counts_[at] == pixels;
-      for (std::vector<double>& means : means_) means[at] /= pixels;
-      if (counts_[at] != 0 && counts_[at] != pixels) on_part(static_cast<int>(i));
-    }
+    const int narrow = width & ((1 << shift_) - 1), last = narrow != 0 ? static_cast<int>(counts_.size()) - 1 : end();
+    finish(begin(), std::min(end(), last), height << shift_, on_part);
+    finish(last, end(), height * narrow, on_part);
   }
 
   bool empty() const { return begin_ >= end_; }
   int begin() const { return static_cast<int>(begin_); }
   int count() const { return static_cast<int>(end_ - begin_); }
-  const double* means(std::size_t component) const { return means_[component].data() + begin_; }
+  const float* means(std::size_t component) const { return means_[component].data() + begin_; }
   const std::uint8_t* is_whole() const { return is_whole_.data() + begin_; }
 
  private:
+  int end() const { return static_cast<int>(end_); }
+
+  template <class OnPart>
+  void finish(int begin, int end, int pixels, const OnPart& on_part) {
+    const float share = 1.0f / static_cast<float>(pixels);
+    for (std::vector<float>& means : means_)
+      for (int i = begin; i < end; ++i) means[static_cast<std::size_t>(i)] *= share;
+    for (int i = begin; i < end; ++i) {
+      const std::uint8_t count = counts_[static_cast<std::size_t>(i)];
+      is_whole_[static_cast<std::size_t>(i)] = count == pixels;
+      if (count != 0 && count != pixels) on_part(i);
+    }
+  }
+
   int shift_;
   std::ptrdiff_t begin_ = 0, end_ = 0;  ///< blocks outside of which none has changed
-  std::vector<int> counts_;             ///< of pixels that changed
-  std::array<std::vector<double>, 2> means_;
+  std::vector<std::uint8_t> counts_;    ///< of pixels that changed
+  std::array<std::vector<float>, 2> means_;
   std::vector<std::uint8_t> is_whole_;  ///< changed in all its pixels
 };
 
@@ -225,7 +235,7 @@ class CompositeWriter {
 
   void write(int x, int y, const CodeRow& row, std::size_t component) const {
     planes_[component].set_codes(x + row.begin, y, row.codes[component].data() + row.begin, row.changed.data() + row.begin,
-                                 row.end - row.begin, code_from_rgb_.max_code());
+                                 row.end - row.begin);
   }
 
   /// Luma of a row of blocks, and the chroma of those that changed as a whole; adds those that changed in part to `partial`.
@@ -243,8 +253,7 @@ class CompositeWriter {
       partial.push_back(intersect({area.x + (i << shift), area.y, 1 << shift, area.height}, area));
     });
     const int x = (area.x >> shift) + blocks.begin(), y = area.y >> layout_.chroma_shift_y;
-    for (std::size_t i = 0; i < 2; ++i)
-      planes_[i + 1].set_codes(x, y, blocks.means(i), blocks.is_whole(), blocks.count(), code_from_rgb_.max_code());
+    for (std::size_t i = 0; i < 2; ++i) planes_[i + 1].set_codes(x, y, blocks.means(i), blocks.is_whole(), blocks.count());
   }
 
   void set_chroma(const PixelRect& block, double blue, double red) const {

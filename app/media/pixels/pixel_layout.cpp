@@ -26,6 +26,18 @@ ColorModel color_model(const AVPixFmtDescriptor& format) {
   return (format.flags & AV_PIX_FMT_FLAG_RGB) != 0 ? ColorModel::rgb : ColorModel::yuv;
 }
 
+int rounded(float code, float max_code) {
+  return static_cast<int>(std::min(std::max(code, 0.0f), max_code) + 0.5f);
+}
+
+[[gnu::target_clones("avx2", "default")]] void set_bytes(const float* codes, const std::uint8_t* changed, int count,
+                                                         std::uint8_t* to) {
+  for (int i = 0; i < count; ++i) {
+    const auto code = static_cast<std::uint8_t>(rounded(codes[i], 255));
+    to[i] = changed[i] != 0 ? code : to[i];
+  }
+}
+
 }  // namespace
 
 std::optional<PixelLayout> pixel_layout(int format) {
@@ -66,15 +78,10 @@ void SamplePlane::set_code(int x, int y, int value) const {
   at[big_endian_ ? 1 : 0] = static_cast<std::uint8_t>(merged);
 }
 
-void SamplePlane::set_codes(int x, int y, const double* codes, const std::uint8_t* changed, int count, double max_code) const {
-  const auto rounded = [max_code](double code) { return static_cast<int>(std::min(std::max(code, 0.0), max_code) + 0.5); };
-  if (!wide_ && component_.step_bytes == 1 && component_.depth == 8) {
-    std::uint8_t* to = address(x, y);
-    for (int i = 0; i < count; ++i) to[i] = changed[i] ? static_cast<std::uint8_t>(rounded(codes[i])) : to[i];
-    return;
-  }
+void SamplePlane::set_codes(int x, int y, const float* codes, const std::uint8_t* changed, int count) const {
+  if (!wide_ && component_.step_bytes == 1 && component_.depth == 8) return set_bytes(codes, changed, count, address(x, y));
   for (int i = 0; i < count; ++i)
-    if (changed[i]) set_code(x + i, y, rounded(codes[i]));
+    if (changed[i]) set_code(x + i, y, rounded(codes[i], static_cast<float>(mask_)));
 }
 
 }  // namespace catchlight::app

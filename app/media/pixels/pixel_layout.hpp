@@ -43,8 +43,8 @@ class SamplePlane {
   }
   void set_code(int x, int y, int value) const;
 
-  /// Sets the codes of those of `count` samples from column `x` on that changed (1), rounded and kept within 0 to `max_code`.
-  void set_codes(int x, int y, const double* codes, const std::uint8_t* changed, int count, double max_code) const;
+  /// Sets the codes of those of `count` samples from column `x` on that changed (1), rounded and kept within what the depth has.
+  void set_codes(int x, int y, const float* codes, const std::uint8_t* changed, int count) const;
 
   float value(int x, int y) const {
     float value;
