@@ -33,7 +33,7 @@ struct CpuCompositor::Impl {
   void draw_composite(const FrameView& view, const FramePlan& plan, Composite& result);
   void apply_tone(const FrameView& view, const FramePlan& plan, bool want_picture, Composite& result);
 
-  RenderScene scene;
+  const RenderScene& scene;
   CompositorSettings settings;
   SplitLight light_probe;  ///< the scene's light in the probe's frame
   Bounds bounds;

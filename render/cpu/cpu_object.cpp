@@ -48,8 +48,9 @@ CpuObject::CpuObject(const RenderScene& scene, const RayScene& rays, const Bound
     : scene_(scene),
       bounds_(bounds),
       materials_(surface_materials(scene.mesh)),
-      probe_(scene.reflections),
-      rest_(scene.rest_reflections),
+      brdf_(materials_.reflects),
+      probe_(materials_.reflects ? scene.reflections : ReflectionMap{}),
+      rest_(materials_.reflects ? scene.rest_reflections : ReflectionMap{}),
       around_(probe_, rest_, scene.probe_in_tag_m),
       finder_(scene.mesh, rays, samples, polished(materials_)),
       direct_(scene.mesh, rays, bounds),
@@ -68,7 +69,7 @@ CpuObject::Shaded CpuObject::shade(const SurfacePoint& point, const glm::vec3& m
   const float roughness = m.emissive_roughness.w;
   const bool mirrors = m.base_color_metallic.w > 0 || m.dielectric.x > 0;
   const bool shines = mirrors && !direct_.samples().empty() && roughness >= shading::kMinHighlightRoughness;
-  const glm::vec2 table = brdf_.at(glm::dot(point.normal, point.to_viewer), roughness);
+  const glm::vec2 table = mirrors ? brdf_.at(glm::dot(point.normal, point.to_viewer), roughness) : glm::vec2(1, 0);
   const glm::vec4 factor = shading::mirror_factor(m, point.color, table);
   Shaded result{};
   if (mirrors) result.reflected = glm::vec3(factor) * mirrored;

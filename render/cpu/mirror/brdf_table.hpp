@@ -12,7 +12,8 @@ namespace catchlight::render {
 /// Scale and bias of F0 by (n.v, perceptual roughness), linear between texels.
 class BrdfTable {
  public:
-  BrdfTable() : table_(environment_brdf_table(kSize)) {}
+  /// `is_used`: else it is left empty.
+  explicit BrdfTable(bool is_used = true) : table_(is_used ? environment_brdf_table(kSize) : Image()) {}
 
   glm::vec2 at(float n_v, float roughness) const {
     const glm::vec2 place = glm::clamp(glm::vec2(n_v, roughness), 0.0f, 1.0f) * float{kSize} - 0.5f;
