@@ -18,34 +18,33 @@ constexpr double kMinBlur_px2 = 0.08, kMaxBlur_px2 = 36;
 /// Upper triangle and, as a last column, the right side of one part's equations. Plain arrays, rows that start and end at fours,
 /// and loops of constant length: this is where the time goes.
 struct Sums {
-  static constexpr int kColumns = 16;  ///< parameters, the right side, and two that stay empty
-  static_assert(kColumns % 4 == 0 && kColumns > kParameters);
+  static constexpr int kColumns = Linearized::kColumns;
   double normal[kParameters][kColumns] = {};
 
   /// `gradient` has the residual after the parameters.
-  void add(const double (&gradient)[kColumns], double weight);
+  void add(const Linearized::Row& gradient, double weight);
 
   /// The same, where the shared parameters have no gradient.
-  void add_light(const double (&gradient)[kColumns], double weight);
+  void add_light(const Linearized::Row& gradient, double weight);
 
   template <int kRow>
-  [[gnu::always_inline]] void add_row(const double (&gradient)[kColumns], double weight) {
+  [[gnu::always_inline]] void add_row(const Linearized::Row& gradient, double weight) {
     constexpr int kFirst = kRow / 4 * 4;
     const double weighted = weight * gradient[kRow];
     for (int j = kFirst; j < kColumns; ++j) normal[kRow][j] += weighted * gradient[j];
   }
 
   template <int kFirst, int... kRows>
-  [[gnu::always_inline]] void add_rows(const double (&gradient)[kColumns], double weight, std::integer_sequence<int, kRows...>) {
+  [[gnu::always_inline]] void add_rows(const Linearized::Row& gradient, double weight, std::integer_sequence<int, kRows...>) {
     (add_row<kFirst + kRows>(gradient, weight), ...);
   }
 };
 
-[[gnu::target_clones("avx2", "default")]] void Sums::add(const double (&gradient)[kColumns], double weight) {
+[[gnu::target_clones("avx2", "default")]] void Sums::add(const Linearized::Row& gradient, double weight) {
   add_rows<0>(gradient, weight, std::make_integer_sequence<int, kParameters>());
 }
 
-[[gnu::target_clones("avx2", "default")]] void Sums::add_light(const double (&gradient)[kColumns], double weight) {
+[[gnu::target_clones("avx2", "default")]] void Sums::add_light(const Linearized::Row& gradient, double weight) {
   add_rows<kSharedParameters>(gradient, weight, std::make_integer_sequence<int, kLightParameters>());
 }
 
@@ -89,7 +88,7 @@ double amplitude(const TagLight& light, const glm::dvec2& across) {
 
 /// d white share / d shared parameters. The print moves with the pose, and the pixel's place on it the other way.
 void shared_gradient(const Sampled& sampled, const CameraModel& camera, const glm::dvec3& origin_m, double scale,
-                     double (&gradient)[Sums::kColumns]) {
+                     Linearized::Row& gradient) {
   const glm::dvec2 slope = glm::transpose(sampled.point.cell_per_px) * sampled.pattern.gradient;  // per ideal pixel
   const glm::dvec3 p = sampled.point.point_camera_m;
   const glm::dvec2 per_m = slope * glm::dvec2(camera.fx_px, camera.fy_px) / p.z;
@@ -186,34 +185,51 @@ std::vector<Residual> DirectModel::residuals(const DirectParameters& at, std::si
   return residuals;
 }
 
-DirectModel::Linearized DirectModel::linearize(const DirectParameters& at, const RobustLoss& loss) const {
+Linearized DirectModel::linearize(const DirectParameters& at) const {
   Linearized result;
+  std::size_t pixels = 0;
+  for (const TagPart& part : parts_) pixels += part.pixels.size();
+  result.residuals.reserve(pixels);
+  result.rows.reserve(pixels);
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const PartView view(camera_, parts_[i], at);
     const TagLight& light = at.light[i];
-    Sums sums;
     for (const TagPixel& pixel : parts_[i].pixels) {
       Residual& residual = result.residuals.emplace_back();
+      Linearized::Row& gradient = result.rows.emplace_back();
       const auto sampled = view.at(pixel.place);
       if (!sampled) continue;
       const glm::dvec2 across = view.across(sampled->point.cell);
       const double white = sampled->pattern.white, gain = amplitude(light, across);
       const ResponseTable::Code code = response_->code(light.black + gain * white);
       residual = {true, sampled->pattern.edge, pixel.code - code.value};
-      result.equations.cost += loss.loss(residual.code);
-      double gradient[Sums::kColumns] = {};
       if (residual.edge) shared_gradient(*sampled, camera_, at.camera_from_target.translation_m, gain * code.slope, gradient);
-      double* by_light = gradient + kSharedParameters;
+      double* by_light = gradient.data() + kSharedParameters;
       by_light[0] = code.slope;
       by_light[1] = code.slope * white;
       by_light[2] = by_light[1] * across.x;
       by_light[3] = by_light[1] * across.y;
       gradient[kParameters] = residual.code;
-      residual.edge ? sums.add(gradient, loss.weight(residual.code)) : sums.add_light(gradient, loss.weight(residual.code));
     }
-    add_to(result.equations, sums);
   }
   return result;
+}
+
+NormalEquations DirectModel::equations(const Linearized& linearized, const RobustLoss& loss) const {
+  NormalEquations equations;
+  std::size_t index = 0;
+  for (const TagPart& part : parts_) {
+    Sums sums;
+    for (const std::size_t end = index + part.pixels.size(); index < end; ++index) {
+      const Residual& residual = linearized.residuals[index];
+      if (!residual.known) continue;
+      equations.cost += loss.loss(residual.code);
+      const double weight = loss.weight(residual.code);
+      residual.edge ? sums.add(linearized.rows[index], weight) : sums.add_light(linearized.rows[index], weight);
+    }
+    add_to(equations, sums);
+  }
+  return equations;
 }
 
 bool DirectModel::guess_light(DirectParameters& at) const {

@@ -1,6 +1,7 @@
 // The model that direct refinement fits, its derivatives, and one step of the fit.
 #pragma once
 
+#include <array>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <vector>
@@ -66,6 +67,16 @@ struct Residual {
   double code = 0;  ///< normalised code seen less that modelled
 };
 
+/// The model about some parameters, of every pixel, part after part.
+struct Linearized {
+  static constexpr int kColumns = 16;  ///< parameters, the residual, and two that stay empty
+  static_assert(kColumns % 4 == 0 && kColumns > kSharedParameters + kLightParameters);
+  using Row = std::array<double, kColumns>;
+
+  std::vector<Residual> residuals;
+  std::vector<Row> rows;  ///< d code / d parameters, then the residual
+};
+
 class DirectModel {
  public:
   DirectModel(const CameraModel& camera, const ResponseTable& response, std::vector<TagPart> parts)
@@ -76,11 +87,10 @@ class DirectModel {
   /// One residual for every `stride`-th pixel, part after part.
   std::vector<Residual> residuals(const DirectParameters& at, std::size_t stride = 1) const;
 
-  struct Linearized {
-    NormalEquations equations;
-    std::vector<Residual> residuals;
-  };
-  Linearized linearize(const DirectParameters& at, const RobustLoss& loss) const;
+  Linearized linearize(const DirectParameters& at) const;
+
+  /// The equations of the model linearized: those of another loss cost no second look at the pattern.
+  NormalEquations equations(const Linearized& linearized, const RobustLoss& loss) const;
 
   /// Each part's light from its own lighter and darker pixels. False where a part shows no contrast.
   bool guess_light(DirectParameters& at) const;

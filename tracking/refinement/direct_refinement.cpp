@@ -133,7 +133,8 @@ struct DirectRefiner::Impl {
   /// A fit under way.
   struct Fit {
     DirectParameters at;
-    DirectModel::Linearized linearized;
+    Linearized linearized;      ///< there
+    NormalEquations equations;  ///< of that, for the noise
     double noise = 0;
     double kept_share = 1;  ///< the pixels that are not occluded
     double moved_px = 1e9;  ///< by the last step
@@ -141,11 +142,12 @@ struct DirectRefiner::Impl {
     bool is_light_even = false;  ///< not yet let slope: a dark occluder would pass for a slope far from the solution
   };
 
-  DirectModel::Linearized linearize(const DirectModel& model, const DirectParameters& at, const Covariance2& usual_blur,
-                                    double noise, bool is_light_even = false) const {
-    auto result = model.linearize(at, {kLossSigmas * noise});
-    add_priors(result.equations, at, usual_blur, noise, is_light_even);
-    return result;
+  /// The equations at `at`, where the model is linearized, as the fit's noise weighs them.
+  NormalEquations equations(const DirectModel& model, const DirectParameters& at, const Linearized& linearized, const Fit& fit,
+                            const Covariance2& usual_blur) const {
+    NormalEquations equations = model.equations(linearized, {kLossSigmas * fit.noise});
+    add_priors(equations, at, usual_blur, fit.noise, fit.is_light_even);
+    return equations;
   }
 
   /// Levenberg-Marquardt at one level of noise.
@@ -158,17 +160,19 @@ struct DirectRefiner::Impl {
     double damping = kFirstDamping;
     for (int step = 0; step < kMaxSteps; ++step) {
       const double stretch = fit.moved_px < kNearPx ? kStretch : 1;
-      const auto next = stepped(fit.at, fit.linearized.equations, damping, stretch);
-      std::optional<DirectModel::Linearized> there;
-      if (next) there = linearize(model, *next, usual_blur, fit.noise, fit.is_light_even);
-      if (!there || !(there->equations.cost <= fit.linearized.equations.cost)) {
+      const auto next = stepped(fit.at, fit.equations, damping, stretch);
+      Linearized there;
+      NormalEquations equations_there;
+      if (next) there = model.linearize(*next), equations_there = equations(model, *next, there, fit, usual_blur);
+      if (!next || !(equations_there.cost <= fit.equations.cost)) {
         damping = std::max(damping, 1e-3) * 10;
         if (damping > kMaxDamping) return;
         continue;
       }
       fit.moved_px = moved_px(camera, fit.at, *next, reach_m);
       fit.at = *next;
-      fit.linearized = std::move(*there);
+      fit.linearized = std::move(there);
+      fit.equations = std::move(equations_there);
       damping = std::max(damping / 10, 1e-7);
       if (fit.moved_px < until_px) return;
     }
@@ -180,10 +184,11 @@ struct DirectRefiner::Impl {
     constexpr int kMaxRounds = 6;
     constexpr double kFallen = 0.9;
     const double least = kMinNoiseCodes / response->codes_per_unit();
-    Fit fit{start, {}, robust_noise(model.residuals(start, kSparse), least), 1};
+    Fit fit{start, model.linearize(start), {}};
+    fit.noise = robust_noise(every(fit.linearized.residuals, kSparse), least);
     const auto has_slope = [](const TagLight& light) { return light.gain_u != 0 || light.gain_v != 0; };
     fit.is_light_even = std::none_of(start.light.begin(), start.light.end(), has_slope);
-    fit.linearized = linearize(model, fit.at, start.blur_px2, fit.noise, fit.is_light_even);
+    fit.equations = equations(model, fit.at, fit.linearized, fit, start.blur_px2);
     for (int round = 0; round < kMaxRounds; ++round) {
       minimize(model, fit, start.blur_px2, round == 0 ? precision.first_px : precision.then_px);
       const double noise = robust_noise(fit.linearized.residuals, least);
@@ -192,7 +197,7 @@ struct DirectRefiner::Impl {
       if (!has_fallen && !fit.is_light_even) continue;
       fit.noise = noise;
       fit.is_light_even = false;
-      fit.linearized = linearize(model, fit.at, start.blur_px2, fit.noise);
+      fit.equations = equations(model, fit.at, fit.linearized, fit, start.blur_px2);
     }
     return fit;
   }
@@ -254,7 +259,7 @@ struct DirectRefiner::Impl {
 
   /// What a finished fit is worth.
   std::optional<DirectFit> judged(const DirectModel& model, const Fit& fit) const {
-    const auto covariance = pose_covariance(fit.linearized.equations);
+    const auto covariance = pose_covariance(fit.equations);
     if (!covariance || fit.is_another_print) return std::nullopt;
     DirectFit result;
     result.camera_from_tag = fit.at.camera_from_target;
@@ -327,7 +332,8 @@ std::optional<DirectFit> DirectRefiner::other_pose(DirectFit& fit) {
   const double noise = std::min(first.noise, second.noise);
   for (Impl::Fit* each : {&first, &second}) {
     each->noise = noise;
-    each->linearized = impl.linearize(model, each->at, fit.blur_px2, noise);
+    each->is_light_even = false;
+    each->equations = impl.equations(model, each->at, each->linearized, *each, fit.blur_px2);
   }
   const auto first_judged = impl.judged(model, first), second_judged = impl.judged(model, second);
   if (!first_judged || !second_judged) return std::nullopt;
