@@ -38,40 +38,15 @@ void for_chunks(std::size_t count, const Work& work) {
 
 }  // namespace
 
-/// A point's lobe, in so many directions.
-struct MirroredLight::Lobe {
-  glm::vec3 to_viewer, normal, viewer_local, footprint_x, footprint_y;
-  glm::mat3 frame;
-  float alpha, share, spread;
-  std::span<const LobePoint> points;
-
-  struct Direction {
-    glm::vec3 direction;
-    float weight;  ///< 0: below the surface
-  };
-
-  Direction at(int i) const {
-    const auto& [u, disc] = points[static_cast<std::size_t>(i)];
-    const glm::vec3 facet = alpha > 0 ? frame * shading::visible_normal(viewer_local, alpha, disc) : normal;
-    const glm::vec3 direction = glm::reflect(-to_viewer, facet) + (u.x - 0.5f) * footprint_x + (u.y - 0.5f) * footprint_y;
-    const float above = glm::dot(direction, normal);
-    return {glm::normalize(direction), above > 0 ? shading::lobe_weight(above, alpha) : 0};
-  }
-};
-
 MirroredLight::MirroredLight(const SurfaceMaterials& materials, const MirrorRays& rays, int lobe_rays)
-    : materials_(materials), rays_(rays), lobe_rays_(lobe_rays) {
-  const auto points_of = [](int count) {
-    std::vector<LobePoint> points;
-    for (int i = 0; i < count; ++i) {
-      const glm::vec2 square = shading::hammersley(i, count);
-      points.push_back({square, shading::disc_point(square)});
-    }
-    return points;
-  };
-  rough_points_ = points_of(std::max(lobe_rays, 1));
-  polished_points_ = points_of(kPolishedRays);
-  single_point_ = points_of(1);
+    : materials_(materials),
+      rays_(rays),
+      lobe_rays_(lobe_rays),
+      polished_points_(LobePoints::dealt(kPolishedRays, 1, 0)),
+      single_point_(LobePoints::dealt(1, 1, 0)) {
+  for (const int sharers : {1, 2, 4, 8})
+    for (int sharer = 0; sharer < sharers; ++sharer)
+      rough_points_.push_back(LobePoints::dealt(std::max(lobe_rays, 1), sharers, sharer));
 }
 
 bool MirroredLight::mirrors(const SurfacePoint& point) const {
@@ -81,12 +56,6 @@ bool MirroredLight::mirrors(const SurfacePoint& point) const {
 
 bool MirroredLight::is_rough(const SurfacePoint& point) const {
   return materials_.materials[point.material].emissive_roughness.w >= shading::kMinHighlightRoughness;
-}
-
-/// Rays of the point's whole lobe, its own and its neighbours'.
-int MirroredLight::rays_of(const SurfacePoint& point) const {
-  if (is_rough(point)) return std::max(lobe_rays_, 1);
-  return point.coverage < 1 ? 1 : kPolishedRays;  // the outline's samples are the rays
 }
 
 /// How many pixels share a lobe's rays. The parts of an outline's pixel share with nobody, and take half of the
@@ -101,36 +70,31 @@ int MirroredLight::sharers_of(const Frame& frame, std::size_t index) const {
   return share <= kFootprintOf8 ? 8 : share <= kFootprintOf4 ? 4 : 2;
 }
 
-MirroredLight::Lobe MirroredLight::lobe_of(const Frame& frame, std::size_t index) const {
+Lobe MirroredLight::lobe_of(const Frame& frame, std::size_t index) const {
   const SurfacePoint& point = frame.surface.points[index];
   const float roughness = materials_.materials[point.material].emissive_roughness.w;
-  Lobe lobe;
-  lobe.to_viewer = point.to_viewer, lobe.normal = point.normal;
-  lobe.footprint_x = footprint_x_[index], lobe.footprint_y = footprint_y_[index];
-  lobe.frame = shading::frame_around(point.normal);
-  lobe.viewer_local = point.to_viewer * lobe.frame;
   // Without rays of its own the whole lobe is read from the prefiltered probe, in the mirror direction.
-  lobe.alpha = lobe_rays_ > 0 ? roughness * roughness : 0;
-  const int lobe_size = is_rough(point) ? rays_of(point) : kPolishedRays;
-  lobe.share = lobe_rays_ > 0 ? std::pow(static_cast<float>(lobe_size), -0.25f) * roughness : roughness;
-  lobe.spread = lobe.share * lobe.share + 0.25f * glm::length(lobe.footprint_x + lobe.footprint_y);
-  lobe.points = is_rough(point) ? rough_points_ : point.coverage < 1 ? single_point_ : polished_points_;
-  return lobe;
+  return {point.to_viewer, point.normal, footprint_x_[index], footprint_y_[index], lobe_rays_ > 0 ? roughness * roughness : 0};
 }
 
-/// The numbers of the rays that are this point's. They are dealt out so that each pixel has rays all over the lobe.
-void MirroredLight::choose_rays(const Frame& frame, std::size_t index, std::vector<int>& chosen) const {
-  chosen.clear();
+/// How rough the surface is whose whole lobe is as wide as what one of the point's rays stands for.
+float MirroredLight::ray_roughness(const SurfacePoint& point) const {
+  const float roughness = materials_.materials[point.material].emissive_roughness.w;
+  if (lobe_rays_ == 0) return roughness;
+  const int lobe_size = is_rough(point) ? lobe_rays_ : kPolishedRays;
+  return std::pow(static_cast<float>(lobe_size), -0.25f) * roughness;
+}
+
+/// The point's own part of its lobe. An outline's pixel needs no more than a ray of a polished one: its samples are the rays.
+const LobePoints& MirroredLight::points_of(const Frame& frame, std::size_t index) const {
   const SurfacePoint& point = frame.surface.points[index];
-  const int count = rays_of(point), sharers = std::min(sharers_of(frame, index), count);
+  if (!is_rough(point)) return point.coverage < 1 ? single_point_ : polished_points_;
+  const int sharers = sharers_of(frame, index);
   const PixelRect& rect = frame.surface.rect;
   const int x = rect.x + static_cast<int>(point.pixel) % rect.width, y = rect.y + static_cast<int>(point.pixel) / rect.width;
   const int of2 = (x ^ y) & 1, of4 = (x & 1) | (y & 1) << 1, of8 = (x & 3) | (y & 1) << 2;
-  const int phase = sharers == 1 ? 0 : sharers == 2 ? of2 : sharers == 4 ? of4 : of8;
-  for (int first = 0; first < count; first += sharers) {
-    const int ray = first + (phase ^ (first / sharers)) % sharers;
-    if (ray < count) chosen.push_back(ray);
-  }
+  const int sharer = sharers == 1 ? 0 : sharers == 2 ? of2 : sharers == 4 ? of4 : of8;
+  return rough_points_[static_cast<std::size_t>(sharers - 1 + sharer)];
 }
 
 void MirroredLight::find_mirror_directions(const Frame& frame) {
@@ -175,14 +139,13 @@ void MirroredLight::look_for_object(const Frame& frame) {
   near_hit_.assign(firsts.size(), 0);
   for_chunks(points.size(), [&](std::size_t first, std::size_t last) {
     thread_local std::vector<MirrorRay> rays;
-    thread_local std::vector<int> chosen;
+    thread_local LobeDirections directions;
     thread_local std::vector<std::size_t> of;
     rays.clear(), of.clear();
     for (std::size_t i = first; i < last; ++i) {
       if (!mirrors(points[i])) continue;
-      choose_rays(frame, i, chosen);
-      const Lobe lobe = lobe_of(frame, i);
-      rays.push_back({rays_.start(points[i].position_m, points[i].normal), lobe.at(chosen.front()).direction, 0, 0, 0});
+      directions.find(lobe_of(frame, i), points_of(frame, i), 1);
+      rays.push_back({rays_.start(points[i].position_m, points[i].normal), directions.direction(0), 0, 0, 0});
       of.push_back(points[i].pixel);
     }
     rays_.look(rays);
@@ -222,20 +185,25 @@ void MirroredLight::add_seen(const Frame& frame, const PointRays& seen) {
 /// Finds what the points' own rays see: the sum of their light, and of their weights.
 void MirroredLight::trace(const Frame& frame, std::size_t first, std::size_t last) {
   thread_local PointRays near_object, free;
-  thread_local std::vector<int> chosen;
+  thread_local LobeDirections directions;
   for (PointRays* some : {&near_object, &free}) some->rays.clear(), some->of.clear();
   for (std::size_t i = first; i < last; ++i) {
     const SurfacePoint& point = frame.surface.points[i];
     sums_[i] = {};
     if (!mirrors(point)) continue;
-    choose_rays(frame, i, chosen);
+    const LobePoints& own = points_of(frame, i);
     const Lobe lobe = lobe_of(frame, i);
+    directions.find(lobe, own, own.number.size());
+    const glm::vec3 start_m = rays_.start(point.position_m, point.normal);
+    const float roughness = ray_roughness(point);
+    const float spread = roughness * roughness + 0.25f * glm::length(lobe.footprint_x + lobe.footprint_y);
     auto& [rays, of] = lobe_rays_ > 0 && near_hit_[point.pixel] ? near_object : free;
-    for (const int number : chosen) {
-      const auto [direction, weight] = lobe.at(number);
-      if (weight == 0) continue;
-      rays.push_back({rays_.start(point.position_m, point.normal), direction, lobe.spread, lobe.share, number});
-      of.push_back({i, weight});
+    for (std::size_t k = 0; k < own.number.size(); ++k) {
+      if (directions.weight(k) == 0) continue;
+      MirrorRay& ray = rays.emplace_back();  // set in its place: a copy of what was just written waits for it
+      ray.origin_m = start_m, ray.direction = directions.direction(k);
+      ray.spread = spread, ray.roughness = roughness, ray.index = own.number[k];
+      of.push_back({i, directions.weight(k)});
     }
   }
   rays_.trace(near_object.rays);

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "render/cpu/mirror/lobe_directions.hpp"
 #include "render/cpu/mirror/mirror_rays.hpp"
 #include "render/cpu/mirror/surroundings.hpp"
 #include "render/cpu/surface/visible_surface.hpp"
@@ -42,18 +43,13 @@ class MirroredLight {
     std::vector<MirrorRay> rays;
     std::vector<Of> of;
   };
-  struct Lobe;
-  /// A lobe's directions before the surface gives them their place.
-  struct LobePoint {
-    glm::vec2 square, disc;  ///< Hammersley's point in the unit square, and the same spread over the unit disc
-  };
 
   bool mirrors(const SurfacePoint& point) const;
   bool is_rough(const SurfacePoint& point) const;
-  int rays_of(const SurfacePoint& point) const;
   int sharers_of(const Frame& frame, std::size_t index) const;
-  void choose_rays(const Frame& frame, std::size_t index, std::vector<int>& chosen) const;
+  const LobePoints& points_of(const Frame& frame, std::size_t index) const;
   Lobe lobe_of(const Frame& frame, std::size_t index) const;
+  float ray_roughness(const SurfacePoint& point) const;
   void find_mirror_directions(const Frame& frame);
   void find_footprints(const Frame& frame, std::size_t index);
   void look_for_object(const Frame& frame);
@@ -65,7 +61,8 @@ class MirroredLight {
   const SurfaceMaterials& materials_;
   const MirrorRays& rays_;
   int lobe_rays_;
-  std::vector<LobePoint> rough_points_, polished_points_, single_point_;
+  std::vector<LobePoints> rough_points_;  ///< of 1 sharer, of each of 2, of each of 4 and of each of 8
+  LobePoints polished_points_, single_point_;
   std::vector<glm::vec3> mirror_, footprint_x_, footprint_y_;  ///< of each point
   std::vector<char> hit_, near_hit_;  ///< a pixel each: whether its first ray, or a neighbour's, meets the object
   std::vector<Sum> sums_;
