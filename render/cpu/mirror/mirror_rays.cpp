@@ -10,7 +10,6 @@ namespace catchlight::render {
 namespace {
 
 constexpr int kMaxSkins = 4;
-constexpr std::size_t kFetchedAhead = 8;
 
 }  // namespace
 
@@ -23,7 +22,7 @@ struct MirrorRays::Walk {
 };
 
 struct MirrorRays::Batch {
-  std::vector<Walk> walks;
+  std::vector<Walk> walks, ends;  ///< on their way on the object; past it at last
   RayStream stream, behind_skin;
   std::vector<std::size_t> again;
 };
@@ -67,7 +66,8 @@ void MirrorRays::find_hits(Batch& batch, Coherence coherence) const {
   }
 }
 
-/// Adds what the walk sees where it meets the object. Whether it goes on from there.
+/// Adds what the walk sees where it meets the object, and turns it to where it goes from there. Whether it may meet the object
+/// again.
 bool MirrorRays::meet(Walk& walk, const RayStream& hits, std::size_t at, MirrorRay& ray, int bounce) const {
   const std::uint32_t triangle = hits.triangle[at], *corner = &mesh_.indices[3 * static_cast<std::size_t>(triangle)];
   const glm::vec3 w(1 - hits.u[at] - hits.v[at], hits.u[at], hits.v[at]);
@@ -87,10 +87,10 @@ bool MirrorRays::meet(Walk& walk, const RayStream& hits, std::size_t at, MirrorR
   const glm::vec3 position = walk.origin_m + hits.far[at] * walk.direction;
   const bool follows =
       bounce < shading::kMoreBounces && std::max({factor.x, factor.y, factor.z}) >= shading::kMinFollowed && n_v > 0;
+  walk.origin_m = position;
   if (!follows) {
-    ray.radiance +=
-        walk.through * around_->radiance(position, glm::reflect(walk.direction, normal), walk.spread + roughness * roughness,
-                                         shading::wider(roughness, walk.roughness), true);
+    walk.direction = glm::reflect(walk.direction, normal);
+    walk.spread += roughness * roughness, walk.roughness = shading::wider(roughness, walk.roughness);
     return false;
   }
   walk.direction = shading::mirrored_way(walk.direction, normal, roughness, shading::way_from_surface(ray.index, bounce));
@@ -103,29 +103,31 @@ bool MirrorRays::meet(Walk& walk, const RayStream& hits, std::size_t at, MirrorR
 
 void MirrorRays::trace(std::span<MirrorRay> rays) const {
   thread_local Batch batch;
-  batch.walks.clear();
+  batch.walks.clear(), batch.ends.clear();
   for (std::size_t i = 0; i < rays.size(); ++i)
     batch.walks.push_back({i, rays[i].origin_m, rays[i].direction, glm::vec3(1), rays[i].spread, rays[i].roughness});
   for (int bounce = 0; !batch.walks.empty(); ++bounce) {
     find_hits(batch, bounce == 0 ? Coherence::coherent : Coherence::incoherent);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < batch.walks.size(); ++i) {
-      const std::size_t ahead = std::min(i + kFetchedAhead, batch.walks.size() - 1);
-      if (bounce > 0 && !batch.stream.meets(ahead)) {
-        const Walk& next = batch.walks[ahead];
-        around_->prefetch(next.origin_m, next.direction, next.roughness, true);
-      }
       Walk walk = batch.walks[i];
       MirrorRay& ray = rays[walk.ray];
-      if (batch.stream.meets(i)) {
-        ray.meets_object = true;
-        if (meet(walk, batch.stream, i, ray, bounce)) batch.walks[kept++] = walk;
-      } else if (bounce > 0) {
-        ray.radiance += walk.through * around_->radiance(walk.origin_m, walk.direction, walk.spread, walk.roughness, true);
+      if (batch.stream.meets(i)) ray.meets_object = true;
+      if (batch.stream.meets(i) && meet(walk, batch.stream, i, ray, bounce)) {
+        batch.walks[kept++] = walk;
+      } else if (ray.meets_object) {
+        batch.ends.push_back(walk);
       }
     }
     batch.walks.resize(kept);
   }
+  const auto find = [&](std::size_t i) {
+    const Walk& walk = batch.ends[i];
+    return around_->find(walk.origin_m, walk.direction, walk.spread, walk.roughness, true);
+  };
+  Surroundings::for_each_target(batch.ends.size(), find, [&](std::size_t i, const Surroundings::Target& target) {
+    rays[batch.ends[i].ray].radiance += batch.ends[i].through * around_->radiance(target);
+  });
 }
 
 void MirrorRays::look(std::span<MirrorRay> rays) const {

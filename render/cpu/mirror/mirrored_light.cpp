@@ -1,7 +1,6 @@
 #include "render/cpu/mirror/mirrored_light.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "catchlight/util/parallel.hpp"
@@ -13,8 +12,6 @@ namespace {
 /// A polished surface's lobe is as wide as the pixel's footprint: so many rays smooth what it shows.
 constexpr int kPolishedRays = 4;
 constexpr std::size_t kPointsAtOnce = 256;
-/// So many rays ahead of one that is looked up, what it will read is fetched.
-constexpr std::size_t kFetchedAhead = 8;
 
 /// Neighbours share rays where their mirror directions differ by less than so many alphas, and they lie as deep to this share.
 /// Two take half of a lobe each, whose patterns would show side by side: they share farther.
@@ -166,20 +163,18 @@ void MirroredLight::look_for_object(const Frame& frame) {
 /// Adds what the rays see to the sums of their points.
 void MirroredLight::add_seen(const Frame& frame, const PointRays& seen) {
   const auto with_lights = [&](const SurfacePoint& point) { return !(frame.has_highlights && is_rough(point)); };
-  const auto& [rays, of] = seen;
-  for (std::size_t k = 0; k < rays.size(); ++k) {
-    const std::size_t ahead = std::min(k + kFetchedAhead, rays.size() - 1);
-    if (!rays[ahead].meets_object)
-      frame.around.prefetch(rays[ahead].origin_m, rays[ahead].direction, rays[ahead].roughness,
-                            with_lights(frame.surface.points[of[ahead].point]));
-    const MirrorRay& ray = rays[k];
-    const auto [point, weight] = of[k];
-    sums_[point].light +=
-        weight * (ray.meets_object ? ray.radiance
-                                   : frame.around.radiance(ray.origin_m, ray.direction, ray.spread, ray.roughness,
-                                                           with_lights(frame.surface.points[point])));
+  const auto find = [&](std::size_t i) -> Surroundings::Target {
+    const MirrorRay& ray = seen.rays[i];
+    if (ray.meets_object) return {};
+    return frame.around.find(ray.origin_m, ray.direction, ray.spread, ray.roughness,
+                             with_lights(frame.surface.points[seen.of[i].point]));
+  };
+  Surroundings::for_each_target(seen.rays.size(), find, [&](std::size_t i, const Surroundings::Target& target) {
+    const auto [point, weight] = seen.of[i];
+    const MirrorRay& ray = seen.rays[i];
+    sums_[point].light += weight * (ray.meets_object ? ray.radiance : frame.around.radiance(target));
     sums_[point].weight += weight;
-  }
+  });
 }
 
 /// Finds what the points' own rays see: the sum of their light, and of their weights.
