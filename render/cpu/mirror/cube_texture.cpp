@@ -1,6 +1,7 @@
 #include "render/cpu/mirror/cube_texture.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <string>
 
@@ -12,11 +13,8 @@ namespace {
 
 constexpr int kFaces = 6;
 
-Float4 usable(const float* rgb) {
-  Float4 texel{};
-  for (int c = 0; c < 3; ++c) texel[c] = std::isfinite(rgb[c]) ? std::max(rgb[c], 0.0f) : 0.0f;
-  return texel;
-}
+/// Bits of a float's fraction that a texel has no room for, and how far the exponents lie apart.
+constexpr int kLessFraction = 13, kLessExponent = 95;
 
 }  // namespace
 
@@ -40,9 +38,20 @@ struct CubeTexture::Place {
   }
 };
 
+CubeTexture::Texel CubeTexture::coded(const float* rgb) {
+  constexpr std::uint32_t kOffset = kLessExponent << 23, kHalf = 1u << (kLessFraction - 1);
+  constexpr auto kLeast = std::bit_cast<float>(kOffset + (1u << 23)), kMost = std::bit_cast<float>(kOffset + (0xffffu << 13));
+  Texel texel{};
+  for (int c = 0; c < 3; ++c)
+    if (std::isfinite(rgb[c]) && rgb[c] >= kLeast)
+      texel[c] =
+          static_cast<std::uint16_t>((std::bit_cast<std::uint32_t>(std::min(rgb[c], kMost)) - kOffset + kHalf) >> kLessFraction);
+  return texel;
+}
+
 CubeTexture::Level CubeTexture::make_level(const Image& faces) {
   const int size = faces.width, stride = size + 2;
-  Level level{size, std::vector<Float4>(static_cast<std::size_t>(kFaces) * stride * stride)};
+  Level level{size, std::vector<Texel>(static_cast<std::size_t>(kFaces) * stride * stride)};
   for (int face = 0; face < kFaces; ++face) {
     for (int y = -1; y <= size; ++y) {
       for (int x = -1; x <= size; ++x) {
@@ -53,7 +62,7 @@ CubeTexture::Level CubeTexture::make_level(const Image& faces) {
           from_face = beyond.face, from_x = texel(beyond.s), from_y = texel(beyond.t);
         }
         const std::size_t at = (static_cast<std::size_t>(face) * stride + y + 1) * stride + x + 1;
-        level.texels[at] = usable(faces.pixel(from_x, from_face * size + from_y));
+        level.texels[at] = coded(faces.pixel(from_x, from_face * size + from_y));
       }
     }
   }
@@ -83,16 +92,21 @@ glm::vec3 CubeTexture::sample(const glm::vec3& direction, float level) const {
   return rgb(between_levels(level, levels_.size(), [&](std::size_t number) {
     const auto [texel, across, down] = cell_at(levels_[number], place);
     const int stride = levels_[number].size + 2;
-    return blend(blend(texel[0], texel[1], across), blend(texel[stride], texel[stride + 1], across), down);
+    const auto light = [&](int at) {
+      using Bits = std::uint32_t __attribute__((vector_size(16)));
+      constexpr auto kScale = std::bit_cast<float>((127u + kLessExponent) << 23);
+      return std::bit_cast<Float4>(__builtin_convertvector(texel[at], Bits) << kLessFraction) * splat(kScale);
+    };
+    return blend(blend(light(0), light(1), across), blend(light(stride), light(stride + 1), across), down);
   }));
 }
 
 void CubeTexture::prefetch(const glm::vec3& direction, float level) const {
   const Place place(direction);
   between_levels(level, levels_.size(), [&](std::size_t number) {
-    const Float4* texel = cell_at(levels_[number], place).first;
+    const Texel* texel = cell_at(levels_[number], place).first;
     const int stride = levels_[number].size + 2;
-    for (const Float4* corner : {texel, texel + 1, texel + stride, texel + stride + 1}) __builtin_prefetch(corner);
+    for (const Texel* corner : {texel, texel + 1, texel + stride, texel + stride + 1}) __builtin_prefetch(corner);
     return Float4{};
   });
 }

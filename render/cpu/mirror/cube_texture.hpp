@@ -1,6 +1,7 @@
 // A reflection map in memory, filtered as OpenGL's seamless cube maps are.
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -11,8 +12,8 @@ namespace catchlight::render {
 
 class CubeTexture {
  public:
-  /// Texels that are NaN, infinite or negative count as 0. A map without levels is black. Throws Error where a level's faces are
-  /// not square.
+  /// Texels that are NaN, infinite or negative count as 0, others are kept to a 2000th from 5e-10 to 4e9. A map without levels is
+  /// black. Throws Error where a level's faces are not square.
   explicit CubeTexture(const ReflectionMap& map);
 
   int levels() const { return static_cast<int>(levels_.size()); }
@@ -25,17 +26,20 @@ class CubeTexture {
   void prefetch(const glm::vec3& direction, float level) const;
 
  private:
+  /// Floats with 6 bits of exponent, 10 of fraction and no sign; the fourth is unused. What takes time is to fetch them.
+  using Texel = std::uint16_t __attribute__((vector_size(8)));
   struct Level {
-    int size = 0;                ///< texels along a face
-    std::vector<Float4> texels;  ///< faces with a border of one texel, which repeats the neighbours' outermost
+    int size = 0;               ///< texels along a face
+    std::vector<Texel> texels;  ///< faces with a border of one texel, which repeats the neighbours' outermost
   };
   struct Place;
   /// Four texels and a place between them.
   struct Cell {
-    const Float4* first;  ///< upper left
+    const Texel* first;  ///< upper left
     float across, down;
   };
 
+  static Texel coded(const float* rgb);
   static Level make_level(const Image& faces);
   static Cell cell_at(const Level& level, const Place& place);
 

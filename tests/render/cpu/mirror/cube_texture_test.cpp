@@ -94,6 +94,15 @@ TEST(CubeTexture, LevelsAreMixedInProportion) {
     EXPECT_NEAR(texture.sample({0.3f, -0.2f, 1}, at).x, expected, 1e-5) << at;
 }
 
+TEST(CubeTexture, KeepsLightToATwoThousandth) {
+  const auto kept = [](float value) {
+    return CubeTexture({{faces_of(1, [=](int, int, int) { return glm::vec3(value); })}}).sample({1, 2, 3}, 0).x;
+  };
+  for (float value = 5e-10f; value < 4e9f; value *= 1.37f) EXPECT_NEAR(kept(value) / value, 1, 1.0 / 2000) << value;
+  EXPECT_EQ(kept(1e-10f), 0);
+  EXPECT_NEAR(kept(1e20f), 4.29e9, 1e7) << "the brightest";
+}
+
 TEST(CubeTexture, WhatIsNoLightIsBlack) {
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   const CubeTexture texture({{faces_of(4, [&](int, int, int) { return glm::vec3(nan, inf, -3); })}});
