@@ -39,6 +39,25 @@ PixelRect padded(const PixelRect& rect, const PixelLayout& layout, int width_px,
   return intersect({x, y, right - x, bottom - y}, {0, 0, width_px, height_px});
 }
 
+template <class Code>
+inline void interleave(const std::array<const Code*, 3>& from, int width, Code* packed) {
+  const Code *red = from[0], *green = from[1], *blue = from[2];
+  for (int i = 0; i < width; ++i) {
+    packed[3 * i] = red[i];
+    packed[3 * i + 1] = green[i];
+    packed[3 * i + 2] = blue[i];
+  }
+}
+
+[[gnu::target_clones("avx2", "default")]] void pack(const std::array<const std::uint8_t*, 3>& from, int width,
+                                                    std::uint8_t* packed) {
+  interleave(from, width, packed);
+}
+
+void pack(const std::array<const std::uint16_t*, 3>& from, int width, std::uint16_t* packed) {
+  interleave(from, width, packed);
+}
+
 /// Packs planes of green, blue and red, as FFmpeg orders them.
 template <class Code>
 void pack_row(const AVFrame& planes, int x, int y, int width, std::byte* to) {
@@ -48,12 +67,7 @@ void pack_row(const AVFrame& planes, int x, int y, int width, std::byte* to) {
     const int plane = kPlaneOfChannel[i];
     from[i] = reinterpret_cast<const Code*>(planes.data[plane] + static_cast<std::ptrdiff_t>(y) * planes.linesize[plane]) + x;
   }
-  Code* packed = reinterpret_cast<Code*>(to);
-  for (int i = 0; i < width; ++i) {
-    packed[3 * i] = from[0][i];
-    packed[3 * i + 1] = from[1][i];
-    packed[3 * i + 2] = from[2][i];
-  }
+  pack(from, width, reinterpret_cast<Code*>(to));
 }
 
 AVPixelFormat rgb_format(bool deep, bool in_planes) {
