@@ -133,7 +133,7 @@ class BlockRow {
   void finish(int width, int height, const OnPart& on_part) {
     const int narrow = width & ((1 << shift_) - 1), last = narrow != 0 ? static_cast<int>(counts_.size()) - 1 : end();
     finish(begin(), std::min(end(), last), height << shift_, on_part);
-    finish(last, end(), height * narrow, on_part);
+    if (last < end()) finish(last, end(), height * narrow, on_part);
   }
 
   bool empty() const { return begin_ >= end_; }
