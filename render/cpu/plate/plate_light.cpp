@@ -13,13 +13,17 @@ constexpr float kBrightest = 6e4f;
 
 }  // namespace
 
-Float4 PlateLight::light_of(std::size_t pixel) const {
-  glm::vec3 light = glm::max(rgb(response_->linear(plate_, pixel)) - black_, 0.0f);
-  if (!is_rec709_) light = rec709_from_plate_ * light;
-  light *= one_over_exposure_;
+/// Radiance, Rec. 709, by what the response tells of the plate's codes.
+Float4 PlateLight::radiance_of(Float4 light) const {
+  glm::vec3 result = one_over_exposure_ * (rec709_from_plate_ * glm::max(rgb(light) - black_, 0.0f));
   // A channel without exposure, or a NaN in the plate, shows nothing.
-  for (int c = 0; c < 3; ++c) light[c] = light[c] > 0 ? std::min(light[c], kBrightest) : 0;
-  return float4(light);
+  for (int c = 0; c < 3; ++c) result[c] = result[c] > 0 ? std::min(result[c], kBrightest) : 0;
+  return float4(result);
+}
+
+Float4 PlateLight::light_of(std::size_t pixel) const {
+  if (!radiance_[0].empty()) return ResponseTable::looked_up(radiance_, plate_, pixel);
+  return radiance_of(response_->linear(plate_, pixel));
 }
 
 void PlateLight::set(Plate plate, const FrameView& view, const ResponseTable& response) {
@@ -27,8 +31,15 @@ void PlateLight::set(Plate plate, const FrameView& view, const ResponseTable& re
   response_ = &response;
   black_ = view.black;
   for (int c = 0; c < 3; ++c) one_over_exposure_[c] = view.exposure[c] > 0 ? 1 / view.exposure[c] : 0;
-  is_rec709_ = view.color.plate_from_rec709 == glm::mat3(1);
   rec709_from_plate_ = glm::inverse(view.color.plate_from_rec709);
+  for (auto& radiance : radiance_) radiance.clear();
+  if (view.color.plate_from_rec709 == glm::mat3(1)) {
+    const ResponseTable::Tables& light = response.linear_of_codes();
+    for (std::size_t i = 0; i < light[0].size(); ++i) {
+      const Float4 all = radiance_of(Float4{light[0][i], light[1][i], light[2][i], 0});
+      for (std::size_t c = 0; c < 3; ++c) radiance_[c].push_back(all[static_cast<int>(c)]);
+    }
+  }
   levels_.resize(1);
   levels_[0] = {plate_.rect.width, plate_.rect.height, {}};
   while (levels_.back().width > 1 || levels_.back().height > 1) levels_.push_back(halved(levels_.back()));

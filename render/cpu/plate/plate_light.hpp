@@ -32,6 +32,7 @@ class PlateLight {
     std::vector<Float4> texels;  ///< none for a first level of integer codes
   };
 
+  Float4 radiance_of(Float4 light) const;
   Float4 light_of(std::size_t pixel) const;
   Float4 texel(const Level& level, int x, int y) const;
   Float4 bilinear(const Level& level, const glm::vec2& place) const;
@@ -41,7 +42,7 @@ class PlateLight {
   const ResponseTable* response_ = nullptr;
   glm::vec3 black_{0}, one_over_exposure_{0};
   glm::mat3 rec709_from_plate_{1};
-  bool is_rec709_ = true;
+  ResponseTable::Tables radiance_;  ///< of each integer code, where channels do not mix
   std::vector<Level> levels_;
 };
 

@@ -16,14 +16,23 @@ namespace catchlight::render {
 
 class ResponseTable {
  public:
+  using Tables = std::array<std::vector<float>, 3>;
+
   /// Makes the tables anew only for another response or format.
   void set(const CameraResponse& response, Plate::Format format);
 
   /// A pixel's light, and 0; what is not finite in the plate is black. `plate` must have the format of the tables.
   Float4 linear(const Plate& plate, std::size_t pixel) const {
-    if (plate.format == Plate::Format::rgb_u8) return looked_up<std::uint8_t>(linear_, plate, pixel);
-    if (plate.format == Plate::Format::rgb_u16) return looked_up<std::uint16_t>(linear_, plate, pixel);
-    return linear_of_floats(plate, pixel);
+    return plate.format == Plate::Format::rgb_f32 ? linear_of_floats(plate, pixel) : looked_up(linear_, plate, pixel);
+  }
+
+  /// The light of each integer code, red first; nothing where codes are floats.
+  const Tables& linear_of_codes() const { return linear_; }
+
+  /// What `tables` have for a pixel's integer codes, and 0.
+  static Float4 looked_up(const Tables& tables, const Plate& plate, std::size_t pixel) {
+    if (plate.format == Plate::Format::rgb_u8) return looked_up<std::uint8_t>(tables, plate, pixel);
+    return looked_up<std::uint16_t>(tables, plate, pixel);
   }
 
   /// The codes of `count` pixels of a block, and their light too.
@@ -34,8 +43,6 @@ class ResponseTable {
   void code(const Planes& linear, int channel, int count, Planes& codes) const;
 
  private:
-  using Tables = std::array<std::vector<float>, 3>;
-
   template <typename Code>
   static std::array<Code, 3> triple(const Plate& plate, std::size_t pixel) {
     std::array<Code, 3> codes;
