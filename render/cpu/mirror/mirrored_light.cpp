@@ -16,8 +16,9 @@ constexpr std::size_t kPointsAtOnce = 256;
 /// Neighbours share rays where their mirror directions differ by less than so many alphas, and they lie as deep to this share.
 /// Two take half of a lobe each, whose patterns would show side by side: they share farther.
 constexpr float kSharedTurn = 1, kSharedTurnOf2 = 3, kSharedDepth = 0.04f;
-/// A pixel's footprint in shares of alpha, up to which 8 and 4 pixels share a lobe's rays; beyond, 2 do.
-constexpr float kFootprintOf8 = 0.25f, kFootprintOf4 = 0.5f;
+/// A pixel's footprint in shares of alpha, up to which 8, 4 and 2 pixels share a lobe's rays; beyond, neighbours see other
+/// things.
+constexpr float kFootprintOf8 = 0.25f, kFootprintOf4 = 0.5f, kFootprintOf2 = 2.25f;
 /// How much what neighbours find counts, so that each ray of a lobe has the same say wherever its 8, 4 or 2 sharers lie.
 constexpr float kSaysOf8[3][5] = {{1, 2, 2, 2, 1}, {2, 4, 4, 4, 2}, {1, 2, 2, 2, 1}};
 constexpr float kSaysOf4[3][5] = {{0, 1, 2, 1, 0}, {0, 2, 4, 2, 0}, {0, 1, 2, 1, 0}};
@@ -64,7 +65,7 @@ int MirroredLight::sharers_of(const Frame& frame, std::size_t index) const {
   if (point.coverage < 1) return roughness * roughness < kWideLobe ? 2 : 1;
   const float footprint = glm::length(footprint_x_[index]) + glm::length(footprint_y_[index]);
   const float share = footprint / (roughness * roughness);
-  return share <= kFootprintOf8 ? 8 : share <= kFootprintOf4 ? 4 : 2;
+  return share <= kFootprintOf8 ? 8 : share <= kFootprintOf4 ? 4 : share <= kFootprintOf2 ? 2 : 1;
 }
 
 Lobe MirroredLight::lobe_of(const Frame& frame, std::size_t index) const {
