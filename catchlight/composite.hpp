@@ -1,6 +1,8 @@
 // What the renderer gives back for one frame.
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <optional>
 
 #include "catchlight/image.hpp"
@@ -23,13 +25,18 @@ Image recompose(const Layers& layers);
 /// The changed part of a frame. RGBA floats: display codes as the footage's, alpha 1 where the virtual layer changed the pixel,
 /// else 0.
 struct Composite {
-  PixelRect rect;         ///< empty: nothing virtual in sight
-  RawVector<float> rgba;  ///< row-major within rect
-  Plate plate;            ///< what it is drawn over, at least within rect; empty where the renderer did not keep it
+  PixelRect rect;                           ///< empty: nothing virtual in sight
+  RawVector<float> rgba;                    ///< row-major within rect; empty where a CompositeSink took it
+  std::shared_ptr<const Plate> plate = {};  ///< what it is drawn over, at least within rect; null where it was not kept
   bool glare_drawn = false;
   PixelRect glare_rect;  ///< what glare reaches, where it is drawn
   std::optional<Layers> layers;
   ToneCurve tone_wanted;  ///< what the frame calls for, where tone settings are enabled
 };
+
+/// Takes a composite as bands of its rows, each finished as it comes, from several threads. A band's rows are those from one
+/// multiple of kCompositeBandRows to the next, and it is gone after the call. Pixels that did not change need have no codes.
+using CompositeSink = std::function<void(const Composite& band)>;
+inline constexpr int kCompositeBandRows = 8;
 
 }  // namespace catchlight

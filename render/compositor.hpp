@@ -19,8 +19,10 @@ class Compositor {
   virtual ~Compositor() = default;
 
   /// The frame with the virtual layer in it. With layers there is no tone curve: they are the scene's light, for a compositing
-  /// package to expose.
-  virtual Composite render(const FrameView& view, const PlateReader& plate, bool want_layers = false) = 0;
+  /// package to expose. `take`: takes the pixels where there are neither layers nor a tone curve, which need the whole picture,
+  /// and if the renderer can; then the result has none.
+  virtual Composite render(const FrameView& view, const PlateReader& plate, bool want_layers = false,
+                           const CompositeSink& take = {}) = 0;
 
   /// The curve that the frame calls for (Composite::tone_wanted) alone: nothing is coded.
   virtual ToneCurve meter(const FrameView& view, const PlateReader& plate) = 0;

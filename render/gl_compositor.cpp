@@ -280,7 +280,7 @@ GlCompositor::~GlCompositor() = default;
 GlCompositor::GlCompositor(GlCompositor&&) noexcept = default;
 GlCompositor& GlCompositor::operator=(GlCompositor&&) noexcept = default;
 
-Composite GlCompositor::render(const FrameView& view, const PlateReader& plate, bool want_layers) {
+Composite GlCompositor::render(const FrameView& view, const PlateReader& plate, bool want_layers, const CompositeSink&) {
   return impl_->render(view, plate, want_layers, true);
 }
 

@@ -20,7 +20,8 @@ class GlCompositor final : public Compositor {
   GlCompositor(GlCompositor&&) noexcept;
   GlCompositor& operator=(GlCompositor&&) noexcept;
 
-  Composite render(const FrameView& view, const PlateReader& plate, bool want_layers = false) override;
+  Composite render(const FrameView& view, const PlateReader& plate, bool want_layers = false,
+                   const CompositeSink& take = {}) override;
   ToneCurve meter(const FrameView& view, const PlateReader& plate) override;
   const std::vector<PassTime>& pass_times() const override;
 

@@ -50,6 +50,7 @@ void overlay(const Options& options, Context& context) {
                    .track_file = options.track_in,
                    .is_causal = options.causal,
                    .wants_layers = holds_layers(options.output),
+                   .wants_frames = !options.debug,
                    .keeps_track = !options.track_out.empty()},
                   context.log);
   SinkOptions sink = options.sink;

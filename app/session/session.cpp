@@ -53,7 +53,7 @@ Session::Session(Recording recording, SessionOptions options, Log& log)
       log_(log),
       footage_(open_source(recording_)),
       camera_(camera_for_footage(recording_, footage_->info().width_px, footage_->info().height_px)),
-      renderer_(recording_.scene, camera_, options_.wants_layers, log) {
+      renderer_(recording_.scene, camera_, {options_.wants_layers, options_.wants_frames}, log) {
   check_range(recording_.footage, options_.range, footage_->info());
   if (options_.wants_layers && recodes_every_frame(recording_.scene))
     log_.warn("layers hold the scene's light: neither exposure.mode \"auto\" nor the classic look is in them");

@@ -26,6 +26,7 @@ struct SessionOptions {
   std::string track_file = {};  ///< poses from there instead of from the pictures
   bool is_causal = false;       ///< track recorded footage as live footage is: each frame knows only those before it
   bool wants_layers = false;    ///< draw layers for compositing packages
+  bool wants_frames = false;    ///< render() may write into job.image what else job.result holds
   bool keeps_track = false;     ///< track_rows() is wanted: they grow with the footage
   std::int64_t kept_bytes = kept_frames_budget();  ///< of frames that are kept from tracking, so that they are decoded once
 };

@@ -36,10 +36,10 @@ render::CompositorSettings compositor_settings(const SceneSettings& scene) {
   return settings;
 }
 
-ShotRenderer::ShotRenderer(SceneSettings settings, const CameraModel& camera, bool wants_layers, Log& log)
+ShotRenderer::ShotRenderer(SceneSettings settings, const CameraModel& camera, Wanted wanted, Log& log)
     : settings_(std::move(settings)),
       camera_(camera),
-      wants_layers_(wants_layers),
+      wanted_(wanted),
       log_(log),
       adaptation_(settings_.exposure.adapt_bright_s, settings_.exposure.adapt_dark_s) {}
 
@@ -97,14 +97,25 @@ void ShotRenderer::view(FrameJob& job) {
 void ShotRenderer::render(FrameJob& job) {
   pass_times_.clear();
   job.result = {};
-  if (job.track.found || (recodes_every_frame(settings_) && !wants_layers_)) {
+  if (job.track.found || (recodes_every_frame(settings_) && !wanted_.layers)) {
     prepare();
     view(job);
-    job.result = compositor_->render(job.view, reader(job.image), wants_layers_);
+    draw(job);
     pass_times_ = compositor_->pass_times();
     if (adapts()) adaptation_.see(job.image.time_s(), job.result.tone_wanted);
   }
   if (settings_.lens.chroma_subsampling == Switch::off) job.image = with_full_color(job.image);
+}
+
+void ShotRenderer::draw(FrameJob& job) {
+  const bool keeps_subsampling = settings_.lens.chroma_subsampling != Switch::off;
+  std::optional<FrameWriter> writer;
+  if (wanted_.frames && !wanted_.layers && keeps_subsampling) writer.emplace(job.image);
+  CompositeSink take;
+  if (writer) take = [&](const Composite& band) { writer->write(band); };
+  job.result = compositor_->render(job.view, reader(job.image), wanted_.layers, take);
+  const bool is_taken = job.result.rgba.empty() && !job.result.rect.empty();
+  if (writer && is_taken) job.image = std::move(*writer).finish();
 }
 
 void ShotRenderer::skip(FrameJob& job) {
@@ -115,7 +126,7 @@ void ShotRenderer::skip(FrameJob& job) {
 }
 
 bool ShotRenderer::adapts() const {
-  return tone_settings(settings_).enabled && !wants_layers_;
+  return tone_settings(settings_).enabled && !wanted_.layers;
 }
 
 }  // namespace catchlight::app

@@ -20,8 +20,11 @@ namespace catchlight::app {
 /// asked for and missing, and the compositor do.
 class ShotRenderer {
  public:
-  /// `wants_layers`: frames get layers for compositing packages, which hold the scene's light and have no tone curve.
-  ShotRenderer(SceneSettings settings, const CameraModel& camera, bool wants_layers, Log& log);
+  struct Wanted {
+    bool layers;  ///< for compositing packages: they hold the scene's light and have no tone curve
+    bool frames;  ///< composites are written into the frames where that is quicker
+  };
+  ShotRenderer(SceneSettings settings, const CameraModel& camera, Wanted wanted, Log& log);
   ~ShotRenderer();
   ShotRenderer(const ShotRenderer&) = delete;
   ShotRenderer& operator=(const ShotRenderer&) = delete;
@@ -45,7 +48,7 @@ class ShotRenderer {
   /// Sets job.view from job.image and job.track.
   void view(FrameJob& job);
 
-  /// Sets job.view and job.result.
+  /// Sets job.view and job.result; a result without pixels was written into job.image.
   void render(FrameJob& job);
 
   /// The exposure adapts to frames that are not drawn, too: it must see every frame of the footage, in order.
@@ -62,10 +65,11 @@ class ShotRenderer {
 
  private:
   bool adapts() const;
+  void draw(FrameJob& job);
 
   SceneSettings settings_;
   CameraModel camera_;
-  bool wants_layers_;
+  Wanted wanted_;
   Log& log_;
   std::unique_ptr<render::GlContext> context_;  ///< outlives the compositor; null where the processor draws
   std::string renderer_name_;

@@ -22,7 +22,8 @@ namespace catchlight::render {
 struct CpuCompositor::Impl {
   Impl(const RenderScene& given, const CompositorSettings& wanted);
 
-  Composite render(const FrameView& view, const PlateReader& plate, bool want_layers, bool want_picture);
+  Composite render(const FrameView& view, const PlateReader& plate, bool want_layers, bool want_picture,
+                   const CompositeSink& take);
   SceneNeeds needs() const;
   void relight(const glm::dmat3& tag_from_light);
   bool divides_glare() const;
@@ -30,7 +31,7 @@ struct CpuCompositor::Impl {
   void make_images(const FrameView& view, const FramePlan& plan);
   void draw_virtual_layer(const FrameView& view, const FramePlan& plan, Composite& result);
   void blur(const FramePlan& plan);
-  void draw_composite(const FrameView& view, const FramePlan& plan, Composite& result);
+  void draw_composite(const FrameView& view, const FramePlan& plan, const CompositeSink& take, Composite& result);
   void apply_tone(const FrameView& view, const FramePlan& plan, bool want_picture, Composite& result);
 
   const RenderScene& scene;
@@ -158,7 +159,8 @@ void CpuCompositor::Impl::draw_virtual_layer(const FrameView& view, const FrameP
     });
 }
 
-void CpuCompositor::Impl::draw_composite(const FrameView& view, const FramePlan& plan, Composite& result) {
+void CpuCompositor::Impl::draw_composite(const FrameView& view, const FramePlan& plan, const CompositeSink& take,
+                                         Composite& result) {
   VirtualImages images_in_frame;
   if (plan.draws_virtual()) {
     images_in_frame.object = &images.color, images_in_frame.object_rect = images.rect;
@@ -171,7 +173,8 @@ void CpuCompositor::Impl::draw_composite(const FrameView& view, const FramePlan&
     images_in_frame.glare = [this](int x, int y, int count, float* rgb) { glare->read_row(x, y, count, rgb); };
   const Plate& whole = plan.mirrors_receiver ? plate_light.plate() : plate;
   if (plan.makes_layers) result.layers = empty_layers(plan.frame);
-  composite_plate(view, whole, response, images_in_frame, plan.is_toned, result);
+  const bool is_whole = plan.is_toned || plan.makes_layers || !take;
+  composite_plate(view, whole, response, images_in_frame, plan.is_toned, is_whole ? CompositeSink{} : take, result);
 }
 
 /// The whole frame, composited as linear light, becomes codes.
@@ -188,7 +191,8 @@ void CpuCompositor::Impl::apply_tone(const FrameView& view, const FramePlan& pla
   result.rgba = std::move(light.data);
 }
 
-Composite CpuCompositor::Impl::render(const FrameView& view, const PlateReader& reader, bool want_layers, bool want_picture) {
+Composite CpuCompositor::Impl::render(const FrameView& view, const PlateReader& reader, bool want_layers, bool want_picture,
+                                      const CompositeSink& take) {
   check_view(view);
   clock.begin_frame();
   if (view.has_pose && lit_from != view.tag_from_light) clock.pass("light", [&] { relight(view.tag_from_light); });
@@ -205,10 +209,10 @@ Composite CpuCompositor::Impl::render(const FrameView& view, const PlateReader& 
   result.rect = plan.output_rect(drawn, result.glare_rect);
   if (result.rect.empty()) return result;
   if (!plan.mirrors_receiver) clock.pass("plate", [&] { read_plate(view, reader, result.rect); });
-  clock.pass("composite", [&] { draw_composite(view, plan, result); });
+  clock.pass("composite", [&] { draw_composite(view, plan, take, result); });
   if (plan.makes_layers) put_object_layers(images, *result.layers);
   if (plan.is_toned) apply_tone(view, plan, want_picture, result);
-  result.plate = plan.mirrors_receiver ? plate_light.take_plate() : std::move(plate);
+  result.plate = std::make_shared<const Plate>(plan.mirrors_receiver ? plate_light.take_plate() : std::move(plate));
   return result;
 }
 
@@ -216,12 +220,12 @@ CpuCompositor::CpuCompositor(const RenderScene& scene, const CompositorSettings&
     : impl_(std::make_unique<Impl>(scene, settings)) {}
 CpuCompositor::~CpuCompositor() = default;
 
-Composite CpuCompositor::render(const FrameView& view, const PlateReader& plate, bool want_layers) {
-  return impl_->render(view, plate, want_layers, true);
+Composite CpuCompositor::render(const FrameView& view, const PlateReader& plate, bool want_layers, const CompositeSink& take) {
+  return impl_->render(view, plate, want_layers, true, take);
 }
 
 ToneCurve CpuCompositor::meter(const FrameView& view, const PlateReader& plate) {
-  return impl_->render(view, plate, false, false).tone_wanted;
+  return impl_->render(view, plate, false, false, {}).tone_wanted;
 }
 
 const std::vector<PassTime>& CpuCompositor::pass_times() const {

@@ -17,7 +17,8 @@ class CpuCompositor final : public Compositor {
   CpuCompositor(const RenderScene& scene, const CompositorSettings& settings);
   ~CpuCompositor() override;
 
-  Composite render(const FrameView& view, const PlateReader& plate, bool want_layers = false) override;
+  Composite render(const FrameView& view, const PlateReader& plate, bool want_layers = false,
+                   const CompositeSink& take = {}) override;
   ToneCurve meter(const FrameView& view, const PlateReader& plate) override;
   const std::vector<PassTime>& pass_times() const override;
 

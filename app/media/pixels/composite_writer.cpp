@@ -24,7 +24,11 @@ class ChangedPixels {
     const PixelRect& rect = composite_.rect;
     return x >= rect.x && y >= rect.y && x < rect.x + rect.width && y < rect.y + rect.height && at(x, y)[3] > 0.5f;
   }
-  const Plate& plate() const { return composite_.plate; }
+  /// The plate that was kept of these pixels; null if it was not.
+  const Plate* plate_of(const PixelRect& rect) const {
+    const Plate* plate = composite_.plate.get();
+    return plate && intersect(rect, plate->rect) == rect ? plate : nullptr;
+  }
   glm::dvec3 raw(int x, int y) const { return {at(x, y)[0], at(x, y)[1], at(x, y)[2]}; }
 
   glm::dvec3 rgb(int x, int y) const { return {code_of(at(x, y)[0]), code_of(at(x, y)[1]), code_of(at(x, y)[2])}; }
@@ -208,10 +212,9 @@ class CompositeWriter {
     PixelRect bounds;
     for (const PixelRect& block : partial) bounds = unite(bounds, block);
     bounds = intersect(bounds, rect_);
-    const Plate& drawn_over = pixels_.plate();
-    const bool is_there = intersect(bounds, drawn_over.rect) == bounds;
-    const Plate read = is_there ? Plate{} : plate_reader(bounds);
-    for (const PixelRect& block : partial) move_chroma(is_there ? drawn_over : read, block);
+    const Plate* kept = pixels_.plate_of(bounds);
+    const Plate read = kept ? Plate{} : plate_reader(bounds);
+    for (const PixelRect& block : partial) move_chroma(kept ? *kept : read, block);
   }
 
  private:

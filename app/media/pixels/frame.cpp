@@ -246,13 +246,26 @@ glm::ivec2 Frame::color_block_shift() const {
 }
 
 Frame Frame::with_composite(const Composite& composite) const {
-  const PixelRect rect = intersect(composite.rect, {0, 0, width_px(), height_px()});
-  if (rect.empty()) return *this;
-  const PixelLayout layout = layout_of(*picture_);
-  FramePtr changed = make_frame_like(*picture_, static_cast<AVPixelFormat>(picture_->format));
-  check_ffmpeg(av_frame_copy(changed.get(), picture_.get()), "cannot copy a frame");
-  write_composite(*changed, layout, composite, [this](const PixelRect& part) { return rgb(part); });
-  return {std::shared_ptr<const AVFrame>(std::move(changed)), number_, time_s_, response_};
+  if (intersect(composite.rect, {0, 0, width_px(), height_px()}).empty()) return *this;
+  FrameWriter writer(*this);
+  writer.write(composite);
+  return std::move(writer).finish();
+}
+
+FrameWriter::FrameWriter(Frame frame) : frame_(std::move(frame)) {
+  const AVFrame& picture = *frame_.picture_;
+  written_ = make_frame_like(picture, static_cast<AVPixelFormat>(picture.format));
+  check_ffmpeg(av_frame_copy(written_.get(), &picture), "cannot copy a frame");
+}
+
+void FrameWriter::write(const Composite& composite) const {
+  write_composite(*written_, layout_of(*frame_.picture_), composite, [this](const PixelRect& part) { return frame_.rgb(part); });
+}
+
+Frame FrameWriter::finish() && {
+  frame_.picture_ = std::move(written_);
+  frame_.made_luma_.reset();
+  return std::move(frame_);
 }
 
 }  // namespace catchlight::app

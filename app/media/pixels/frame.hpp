@@ -48,11 +48,29 @@ class Frame : public FrameImage {
   Frame with_composite(const Composite& composite) const;
 
  private:
+  friend class FrameWriter;
+
   std::shared_ptr<const AVFrame> picture_;
   std::int64_t number_;
   double time_s_;
   std::shared_ptr<const CameraResponse> response_;
   mutable std::shared_ptr<std::vector<std::uint8_t>> made_luma_;
+};
+
+/// Writes into a copy of a frame what comes band by band.
+class FrameWriter {
+ public:
+  explicit FrameWriter(Frame frame);
+
+  /// As with_composite(). Bands as a CompositeSink has them may be written from several threads.
+  void write(const Composite& composite) const;
+
+  /// The frame with all that was written.
+  Frame finish() &&;
+
+ private:
+  Frame frame_;
+  std::shared_ptr<AVFrame> written_;
 };
 
 }  // namespace catchlight::app

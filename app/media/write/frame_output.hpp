@@ -15,7 +15,7 @@ class FrameOutput {
  public:
   virtual ~FrameOutput() = default;
 
-  /// `composite.rect` is empty where nothing virtual reached the frame: it passes through as it is.
+  /// Without pixels in the composite, as where nothing virtual reached the frame, it passes through as it is.
   virtual void write(const Frame& plate, const Composite& composite) = 0;
 
   /// Puts the result under its name.

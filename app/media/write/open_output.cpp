@@ -13,7 +13,7 @@ class MediaOutput : public FrameOutput {
   explicit MediaOutput(std::unique_ptr<MediaSink> sink) : sink_(std::move(sink)) {}
 
   void write(const Frame& plate, const Composite& composite) override {
-    sink_->write(composite.rect.empty() ? plate : plate.with_composite(composite));
+    sink_->write(composite.rgba.empty() ? plate : plate.with_composite(composite));
   }
   void finish() override { sink_->finish(); }
 

@@ -77,7 +77,7 @@ std::vector<std::string> drift(const RendererDifference& difference) {
 }
 
 RendererComparison::RendererComparison(SceneSettings settings, const CameraModel& camera, Log& log)
-    : gl_((settings.renderer = Renderer::gl, std::move(settings)), camera, false, log) {
+    : gl_((settings.renderer = Renderer::gl, std::move(settings)), camera, {}, log) {
   gl_.open_renderer();
 }
 

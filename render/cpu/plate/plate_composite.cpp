@@ -12,8 +12,6 @@
 namespace catchlight::render {
 namespace {
 
-constexpr int kRowsAtOnce = 8;
-
 /// A quarter of a code of 8 bits, or of 12 where there may be more.
 float changed_code(Plate::Format format) {
   return format == Plate::Format::rgb_u8 ? 0.25f / 255 : 0.25f / 4095;
@@ -21,14 +19,16 @@ float changed_code(Plate::Format format) {
 
 class PlateComposite {
  public:
+  /// `is_band`: nobody will ask for codes that did not change.
   PlateComposite(const FrameView& view, const Plate& plate, const ResponseTable& response, const VirtualImages& virtual_images,
-                 bool as_light, Composite& result)
+                 bool as_light, bool is_band, Composite& result)
       : view_(view),
         plate_(plate),
         response_(response),
         virtual_(virtual_images),
         levels_{view.black, view.receiver_light, plate.format != Plate::Format::rgb_f32, changed_code(plate.format)},
         as_light_(as_light),
+        is_band_(is_band),
         result_(result) {
     has_vignetting_ = view.camera.vignetting != glm::dvec3(0.0) && virtual_.passed_at_tag > 0;
   }
@@ -48,6 +48,7 @@ class PlateComposite {
         static_cast<std::size_t>(block.y - plate_.rect.y) * plate_.rect.width + (block.x - plate_.rect.x);
     const bool wants_all = as_light_ || result_.layers;
     const bool is_touched = (read_virtual(block) || wants_all) && find_touched(block);
+    if (!is_touched && is_band_) return leave(block);
     if (!is_touched && !wants_all) {
       response_.read(plate_, in_plate, block.count, block.code);
       write(block, block.code, nullptr);
@@ -112,10 +113,16 @@ class PlateComposite {
     return static_cast<float>(vignetting_at(view_.camera, pixel) / virtual_.passed_at_tag);
   }
 
+  float* place(const PlateBlock& block) const {
+    const PixelRect& rect = result_.rect;
+    return &result_.rgba[4 * (static_cast<std::size_t>(block.y - rect.y) * rect.width + (block.x - rect.x))];
+  }
+
+  void leave(const PlateBlock& block) const { std::fill_n(place(block), 4 * block.count, 0.0f); }
+
   /// `changed`: null where nothing has. Of light all has.
   void write(const PlateBlock& block, const Planes& rgb, const PixelMask* changed) const {
-    const PixelRect& rect = result_.rect;
-    float* out = &result_.rgba[4 * (static_cast<std::size_t>(block.y - rect.y) * rect.width + (block.x - rect.x))];
+    float* out = place(block);
     for (std::size_t i = 0; i < static_cast<std::size_t>(block.count); ++i) {
       const bool is_changed = as_light_ || (changed && (*changed)[i] != 0);
       store(Float4{rgb[0][i], rgb[1][i], rgb[2][i], is_changed ? 1.0f : 0.0f}, out + 4 * i);
@@ -142,7 +149,7 @@ class PlateComposite {
   const ResponseTable& response_;
   const VirtualImages& virtual_;
   PlateLevels levels_;
-  bool as_light_, has_vignetting_;
+  bool as_light_, is_band_, has_vignetting_;
   Composite& result_;
 };
 
@@ -159,14 +166,28 @@ void check_plate(const Plate& plate) {
 }
 
 void composite_plate(const FrameView& view, const Plate& plate, const ResponseTable& response,
-                     const VirtualImages& virtual_images, bool as_light, Composite& result) {
+                     const VirtualImages& virtual_images, bool as_light, const CompositeSink& take, Composite& result) {
   check_plate(plate);
   const PixelRect& rect = result.rect;
-  result.rgba.resize(4 * static_cast<std::size_t>(rect.width) * rect.height);
-  const PlateComposite composite(view, plate, response, virtual_images, as_light, result);
-  parallel_for(static_cast<std::size_t>((rect.height + kRowsAtOnce - 1) / kRowsAtOnce), 0, [&](std::size_t band) {
-    const int first = rect.y + static_cast<int>(band) * kRowsAtOnce;
-    for (int y = first; y < std::min(first + kRowsAtOnce, rect.y + rect.height); ++y) composite.row(y);
+  const auto make_room = [](Composite& composite) {
+    composite.rgba.resize(4 * static_cast<std::size_t>(composite.rect.width) * composite.rect.height);
+  };
+  const auto draw_rows = [&](const PixelRect& rows, Composite& to) {
+    const PlateComposite composite(view, plate, response, virtual_images, as_light, static_cast<bool>(take), to);
+    for (int y = rows.y; y < rows.y + rows.height; ++y) composite.row(y);
+  };
+  if (!take) make_room(result);
+  const int top = rect.y / kCompositeBandRows, bottom = (rect.y + rect.height - 1) / kCompositeBandRows;
+  parallel_for(static_cast<std::size_t>(bottom - top + 1), 0, [&](std::size_t band) {
+    const int first = (top + static_cast<int>(band)) * kCompositeBandRows;
+    const PixelRect rows = intersect({rect.x, first, rect.width, kCompositeBandRows}, rect);
+    if (!take) return draw_rows(rows, result);
+    thread_local Composite taken;
+    taken.rect = rows;
+    taken.plate = std::shared_ptr<const Plate>(std::shared_ptr<const Plate>(), &plate);  // no more than a pointer
+    make_room(taken);
+    draw_rows(rows, taken);
+    take(taken);
   });
 }
 

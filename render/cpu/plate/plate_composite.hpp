@@ -28,10 +28,10 @@ struct VirtualImages {
 };
 
 /// Composites the pixels of result.rect, which the plate holds, into result.rgba, and into result.layers where it has any.
-/// `as_light`: linear light instead of codes, for the tone curve to go on from. Throws Error if the plate is not of its
-/// rectangle's size.
+/// `as_light`: linear light instead of codes, for the tone curve to go on from. `take`, if there is one, takes the pixels instead
+/// of result.rgba; there may be no layers then. Throws Error if the plate is not of its rectangle's size.
 void composite_plate(const FrameView& view, const Plate& plate, const ResponseTable& response,
-                     const VirtualImages& virtual_images, bool as_light, Composite& result);
+                     const VirtualImages& virtual_images, bool as_light, const CompositeSink& take, Composite& result);
 
 /// Throws Error if the plate is not of its rectangle's size.
 void check_plate(const Plate& plate);

@@ -103,9 +103,30 @@ TEST_P(EveryFormat, ThePlateMayComeWithTheComposite) {
   Composite composite = random_composite({5, 7, 33, 21}, 0.7, 11);
   const auto expected = samples_of(before.with_composite(composite).picture());
   for (const PixelRect& held : {composite.rect, PixelRect{0, 0, kWidth, kHeight}, PixelRect{5, 7, 33, 20}}) {
-    composite.plate = before.rgb(held);
+    composite.plate = std::make_shared<const Plate>(before.rgb(held));
     EXPECT_EQ(samples_of(before.with_composite(composite).picture()), expected);
   }
+}
+
+/// Bands, last one first, each with no codes where nothing changed.
+TEST_P(EveryFormat, BandsMakeTheWhole) {
+  const Frame before = frame_of(noise_frame(GetParam(), kWidth, kHeight, 3));
+  const Composite whole = random_composite({5, 7, 33, 21}, 0.7, 11);
+  FrameWriter writer(before);
+  for (int top = kHeight / kCompositeBandRows * kCompositeBandRows; top >= 0; top -= kCompositeBandRows) {
+    Composite band;
+    band.rect = intersect({whole.rect.x, top, whole.rect.width, kCompositeBandRows}, whole.rect);
+    if (band.rect.empty()) continue;
+    const auto row_floats = static_cast<std::ptrdiff_t>(4) * whole.rect.width;
+    const auto first = whole.rgba.begin() + (band.rect.y - whole.rect.y) * row_floats;
+    band.rgba.assign(first, first + band.rect.height * row_floats);
+    for (std::size_t i = 0; i < band.rgba.size(); ++i)
+      if (band.rgba[i / 4 * 4 + 3] == 0) band.rgba[i] = 0;
+    writer.write(band);
+  }
+  const Frame after = std::move(writer).finish();
+  EXPECT_EQ(samples_of(after.picture()), samples_of(before.with_composite(whole).picture()));
+  EXPECT_EQ(after.number(), before.number());
 }
 
 TEST_P(EveryFormat, TheDecodersFrameItselfStaysAsItWas) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <mutex>
+#include <set>
 
 #include "catchlight/error.hpp"
 #include "catchlight/response.hpp"
@@ -33,7 +35,7 @@ class PlateComposite : public ::testing::Test {
     std::memcpy(plate_.pixels.data(), codes.data(), plate_.pixels.size());
   }
 
-  Composite composite(bool as_light = false, const PixelRect& rect = kFrame) {
+  Composite composite(bool as_light = false, const PixelRect& rect = kFrame, const CompositeSink& take = {}) {
     Composite result;
     result.rect = rect;
     ResponseTable response;
@@ -46,7 +48,7 @@ class PlateComposite : public ::testing::Test {
     };
     images.passed_at_tag = 1;
     images.glare = glare_;
-    composite_plate(view_, plate_, response, images, as_light, result);
+    composite_plate(view_, plate_, response, images, as_light, take, result);
     return result;
   }
 
@@ -156,6 +158,33 @@ TEST_F(PlateComposite, IsTheSameInAnyRectangle) {
   const Composite whole = composite(), part = composite(false, {17, 9, 21, 30});
   for (int y = 9; y < 39; ++y)
     for (int x = 17; x < 38; ++x) EXPECT_EQ(pixel_of(whole, x, y), pixel_of(part, x, y));
+}
+
+TEST_F(PlateComposite, BandsHoldWhatChanges) {
+  for (int y = 0; y < 48; ++y)
+    for (int x = 20; x < 40; ++x)
+      for (int c = 0; c < 3; ++c) shadow_.pixel(x, y)[c] = 0.5f;
+  const PixelRect rect{3, 5, 60, 40};
+  const Composite whole = composite(false, rect);
+  std::mutex mutex;
+  std::set<int> rows;
+  const Composite rest = composite(false, rect, [&](const Composite& band) {
+    const std::lock_guard lock(mutex);
+    EXPECT_EQ(band.plate.get(), &plate_);
+    EXPECT_LE(band.rect.y % kCompositeBandRows + band.rect.height, kCompositeBandRows);
+    for (int y = band.rect.y; y < band.rect.y + band.rect.height; ++y) {
+      EXPECT_TRUE(rows.insert(y).second);
+      for (int x = rect.x; x < rect.x + rect.width; ++x) {
+        ASSERT_EQ(pixel_of(band, x, y).w, pixel_of(whole, x, y).w);
+        if (pixel_of(whole, x, y).w > 0) {
+          ASSERT_EQ(pixel_of(band, x, y), pixel_of(whole, x, y));
+        }
+      }
+    }
+  });
+  EXPECT_EQ(rows.size(), 40u);
+  EXPECT_TRUE(rest.rgba.empty());
+  EXPECT_EQ(rest.rect, rect);
 }
 
 TEST_F(PlateComposite, AsLightIsWhatTheCodesStandFor) {
