@@ -50,7 +50,7 @@ std::vector<Variant> variants(const TimedShot& shot, Log& log) {
   const auto add = [&](const char* column, auto change) {
     SceneSettings scene = shot.scene;
     change(scene.quality);
-    result.push_back({column, std::make_unique<ShotRenderer>(scene, shot.camera, false, log)});
+    result.push_back({column, std::make_unique<ShotRenderer>(scene, shot.camera, ShotRenderer::Wanted{}, log)});
     result.back().renderer->prepare();
   };
   add("object", [](auto&) {});
