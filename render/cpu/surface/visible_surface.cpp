@@ -13,6 +13,7 @@ namespace catchlight::render {
 namespace {
 
 constexpr int kBandRows = 8, kTileColumns = 8;
+constexpr std::size_t kMaxPieces = 4096;
 
 /// Samples of one pixel that lie on much the same surface are shaded together: cosine of 25 degrees between their normals, and
 /// shares of the distance.
@@ -59,7 +60,13 @@ SurfaceFinder::SurfaceFinder(const Mesh& mesh, const RayScene& rays, int samples
       rays_(rays),
       outline_(mesh),
       sample_offsets_px_(sample_pattern(samples)),
-      is_polished_(std::move(is_polished)) {}
+      is_polished_(std::move(is_polished)) {
+  const std::size_t triangles = mesh.indices.size() / 3, triangles_a_piece = 1 + triangles / kMaxPieces;
+  for (std::size_t t = 0; t < triangles; ++t) {
+    if (t % triangles_a_piece == 0) pieces_.emplace_back();
+    pieces_.back().add(triangle_bounds(mesh, t));
+  }
+}
 
 SurfaceFinder::Hit SurfaceFinder::hit_of(const RayStream& rays, std::size_t ray) const {
   Hit hit{rays.triangle[ray], {rays.u[ray], rays.v[ray]}, rays.far[ray], !rays.is_front_facing(ray)};
@@ -129,17 +136,48 @@ void add(SurfacePoint& sum, const SurfacePoint& other) {
   sum.exit_radiance += other.exit_radiance, sum.depth_m += other.depth_m;
 }
 
-/// Visits a band's pixels tile after tile, so that those that follow each other are neighbours in the picture.
+}  // namespace
+
+/// Marks the tiles that the object may be seen in, by the boxes of pieces. A point of one is c + d in the camera frame, c its
+/// middle, |d| <= h along each axis. With n = c.xy / c.z, (c + d).xy / (c + d).z - n = (d.xy - n d.z) / (c.z + d.z) is at most
+/// (h.xy + |n| h.z) / (c.z - h.z) long. h is grown by tens of times what floats round here and in rays, the picture of the box
+/// by a pixel: samples lie half of one away from middles.
+void SurfaceFinder::mark_tiles(const Frame& frame) {
+  const CameraModel& camera = frame.view.camera;
+  const glm::ivec2 count((frame.rect.width + kTileColumns - 1) / kTileColumns, (frame.rect.height + kBandRows - 1) / kBandRows);
+  const auto mark_all = [&](char is_marked) { is_seen_tile_.assign(static_cast<std::size_t>(count.x) * count.y, is_marked); };
+  mark_all(0);
+  if (camera.has_distortion()) return mark_all(1);
+  const glm::mat3 r(frame.view.camera_from_tag.rotation), sizes(glm::abs(r[0]), glm::abs(r[1]), glm::abs(r[2]));
+  const glm::vec2 tiles_a_pixel = 1.0f / glm::vec2(kTileColumns, kBandRows);
+  const glm::vec2 scale = glm::vec2(camera.fx_px, camera.fy_px) * tiles_a_pixel;
+  const glm::vec2 origin = glm::vec2(camera.cx_px - frame.rect.x, camera.cy_px - frame.rect.y) * tiles_a_pixel;
+  for (const Bounds& piece : pieces_) {
+    const glm::vec3 c = r * (piece.middle_m() - frame.eye_tag_m);
+    const glm::vec3 h = sizes * (0.5f * (piece.max_m - piece.min_m)) + 1e-5f * (std::abs(c.x) + std::abs(c.y) + std::abs(c.z));
+    if (!(c.z - h.z > static_cast<float>(kNear_m))) return mark_all(1);
+    const glm::vec2 n = glm::vec2(c) * (1 / c.z), reach = (glm::vec2(h) + glm::abs(n) * h.z) * (1 / (c.z - h.z));
+    const glm::vec2 middle = origin + scale * n, half = scale * reach + tiles_a_pixel;
+    const glm::ivec2 first(glm::clamp(middle - half, glm::vec2(0), glm::vec2(count)));
+    const glm::ivec2 end(glm::clamp(middle + half + 1.0f, glm::vec2(0), glm::vec2(count)));
+    for (int y = first.y; y < end.y; ++y)
+      for (int x = first.x; x < end.x; ++x) is_seen_tile_[static_cast<std::size_t>(y) * count.x + x] = 1;
+  }
+}
+
+/// Visits the pixels of a band's marked tiles, tile after tile, so that those that follow each other are neighbours in the
+/// picture.
 template <typename Visit>
-void for_each_pixel(const PixelRect& rect, int band, const Visit& visit) {
+void SurfaceFinder::for_each_pixel(const PixelRect& rect, int band, const Visit& visit) const {
   const int top = band * kBandRows, bottom = std::min(top + kBandRows, rect.height);
-  for (int left = 0; left < rect.width; left += kTileColumns)
+  const std::size_t first_tile = static_cast<std::size_t>(band) * ((rect.width + kTileColumns - 1) / kTileColumns);
+  for (int left = 0; left < rect.width; left += kTileColumns) {
+    if (!is_seen_tile_[first_tile + left / kTileColumns]) continue;
     for (int y = top; y < bottom; ++y)
       for (int x = left; x < std::min(left + kTileColumns, rect.width); ++x)
         visit(x, y, static_cast<std::size_t>(y) * rect.width + x);
+  }
 }
-
-}  // namespace
 
 /// The samples of a pixel that the outline crosses, from `first_ray`, grouped by surface.
 void SurfaceFinder::add_samples(const Frame& frame, const RayStream& rays, std::size_t first_ray, std::size_t pixel,
@@ -175,17 +213,19 @@ void SurfaceFinder::add_samples(const Frame& frame, const RayStream& rays, std::
 void SurfaceFinder::trace_band(const Frame& frame, int band) {
   thread_local RayStream rays;
   const PixelRect& rect = frame.rect;
-  rays.resize(static_cast<std::size_t>(rect.width) * std::min(kBandRows, rect.height - band * kBandRows));
+  const std::size_t begin = static_cast<std::size_t>(band) * kBandRows * rect.width;
+  for (Hit& hit : std::span(hits_).subspan(begin, std::min(hits_.size() - begin, std::size_t{kBandRows} * rect.width)))
+    hit.triangle = RayStream::kNothing;
   std::size_t ray = 0;
+  for_each_pixel(rect, band, [&](int, int, std::size_t) { ++ray; });
+  if (ray == 0) return;
+  rays.resize(std::exchange(ray, 0));
   for_each_pixel(rect, band,
                  [&](int x, int y, std::size_t) { frame.set_ray(rays, ray++, frame.pixel_rays.at(rect.x + x, rect.y + y)); });
   rays_.closest_hits(rays, Coherence::coherent);
   ray = 0;
   for_each_pixel(rect, band, [&](int, int, std::size_t pixel) {
-    if (rays.meets(ray))
-      hits_[pixel] = hit_of(rays, ray);
-    else
-      hits_[pixel].triangle = RayStream::kNothing;
+    if (rays.meets(ray)) hits_[pixel] = hit_of(rays, ray);
     ++ray;
   });
 }
@@ -249,6 +289,7 @@ const VisibleSurface& SurfaceFinder::find(const FrameView& view, const Distortio
                     glm::vec3(inverse(view.camera_from_tag).translation_m),
                     glm::mat3(glm::transpose(view.camera_from_tag.rotation))};
   mark_outline(frame);
+  mark_tiles(frame);
   bands_.resize(static_cast<std::size_t>((rect.height + kBandRows - 1) / kBandRows));
   hits_.resize(is_outline_.size());
   parallel_for(bands_.size(), 0, [&](std::size_t band) { trace_band(frame, static_cast<int>(band)); });

@@ -10,6 +10,7 @@
 #include "render/cpu/surface/mesh_outline.hpp"
 #include "render/cpu/surface/pixel_rays.hpp"
 #include "render/frame_view.hpp"
+#include "render/mesh/bounds.hpp"
 #include "render/rays/ray_scene.hpp"
 
 namespace catchlight::render {
@@ -57,6 +58,9 @@ class SurfaceFinder {
   };
 
   void mark_outline(const Frame& frame);
+  void mark_tiles(const Frame& frame);
+  template <typename Visit>
+  void for_each_pixel(const PixelRect& rect, int band, const Visit& visit) const;
   void trace_band(const Frame& frame, int band);
   void mark_steps(const Frame& frame, int band);
   void put_band(const Frame& frame, int band, std::vector<SurfacePoint>& points) const;
@@ -69,10 +73,12 @@ class SurfaceFinder {
   const Mesh& mesh_;
   const RayScene& rays_;
   MeshOutline outline_;
+  std::vector<Bounds> pieces_;  ///< around a few of the mesh's triangles each
   std::vector<glm::vec2> sample_offsets_px_;
   std::vector<char> is_polished_;
-  std::vector<char> is_outline_;  ///< a pixel of the rectangle each
-  std::vector<Hit> hits_;         ///< what each pixel's middle shows
+  std::vector<char> is_outline_;    ///< a pixel of the rectangle each
+  std::vector<char> is_seen_tile_;  ///< a tile of the rectangle each: whether the object may be seen there
+  std::vector<Hit> hits_;           ///< what each pixel's middle shows
   std::vector<std::vector<SurfacePoint>> bands_;
   VisibleSurface surface_;
 };

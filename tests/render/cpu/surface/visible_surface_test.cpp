@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
 #include <numeric>
 #include <random>
@@ -161,6 +162,44 @@ TEST(VisibleSurface, OfALensThatSeesNothingInPlacesIsWhatTheRestSees) {
                               radial(random), radial(random), radial(random),     radial(random)};
     for (const SurfacePoint& point : seen(mesh, view).points) EXPECT_NEAR(glm::length(point.position_m), 0.12, 2e-3);
   }
+}
+
+TEST(VisibleSurface, MissesNoPixelThatARayFindsTheObjectIn) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> place(-0.2f, 0.2f), length(0.001f, 0.15f), angle(-0.5f, 0.5f);
+  std::size_t hits = 0;
+  for (int i = 0; i < 150; ++i) {
+    Mesh mesh;
+    mesh.materials.push_back(white());
+    const float largest = length(random);
+    for (std::uint32_t k = 0; k < 60; ++k) {
+      const glm::vec3 middle(place(random), place(random), place(random));
+      for (int corner = 0; corner < 3; ++corner)
+        mesh.vertices.push_back({middle + largest * 5 * glm::vec3(place(random), place(random), place(random)), {0, 0, 1}});
+      add_triangle(mesh, 3 * k, 3 * k + 1, 3 * k + 2);
+    }
+    FrameView view = view_from_above(0.1 + 3 * std::abs(place(random)));  // within the mesh, close by, and from afar
+    view.camera_from_tag.rotation = glm::dmat3(glm::rotate(glm::mat4(1), angle(random), {1, 0, 0})) *
+                                    glm::dmat3(glm::rotate(glm::mat4(1), angle(random), {0, 1, 0})) *
+                                    view.camera_from_tag.rotation;
+    if (i % 5 == 0) view.camera.distortion = {-0.3, 0.1, 0.002, -0.001, 0, 0, 0, 0};
+    const VisibleSurface surface = seen(mesh, view, 1);
+    const RayScene rays(mesh);
+    PixelRays pixel_rays;
+    pixel_rays.set_camera(view.camera, distortion_limit(view.camera));
+    const glm::vec3 eye_m(inverse(view.camera_from_tag).translation_m);
+    const glm::mat3 tag_from_camera(glm::transpose(view.camera_from_tag.rotation));
+    for (std::size_t pixel = 0; pixel < surface.first.size(); ++pixel) {
+      const glm::vec2 normalized = pixel_rays.at(static_cast<int>(pixel % 160), static_cast<int>(pixel / 160));
+      const glm::vec3 direction = tag_from_camera * glm::vec3(normalized, 1);
+      const bool is_hit = rays.closest_hit(eye_m + 0.001f * direction, direction).has_value();
+      hits += is_hit;
+      if (is_hit) {
+        ASSERT_GE(surface.first[pixel], 0) << "mesh " << i << ", pixel " << pixel;
+      }
+    }
+  }
+  EXPECT_GT(hits, 100000u);
 }
 
 TEST(VisibleSurface, HasANormalWhateverTheVerticesSay) {
