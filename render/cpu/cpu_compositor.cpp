@@ -34,7 +34,7 @@ struct CpuCompositor::Impl {
   void draw_composite(const FrameView& view, const FramePlan& plan, const CompositeSink& take, Composite& result);
   void apply_tone(const FrameView& view, const FramePlan& plan, bool want_picture, Composite& result);
 
-  const RenderScene& scene;
+  RenderScene scene;
   CompositorSettings settings;
   SplitLight light_probe;  ///< the scene's light in the probe's frame
   Bounds bounds;

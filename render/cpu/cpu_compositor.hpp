@@ -13,7 +13,7 @@ namespace catchlight::render {
 
 class CpuCompositor final : public Compositor {
  public:
-  /// Keeps a reference to the scene. Throws Error where its parts do not fit together.
+  /// Throws Error where the scene's parts do not fit together.
   CpuCompositor(const RenderScene& scene, const CompositorSettings& settings);
   ~CpuCompositor() override;
 
