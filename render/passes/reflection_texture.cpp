@@ -12,13 +12,6 @@ namespace {
 
 constexpr int kFaces = 6;
 
-void check_level(const Image& level, std::size_t number) {
-  if (level.channels == 3 && level.width > 0 && level.height == kFaces * level.width) return;
-  throw Error("reflection level " + std::to_string(number) + " is " + std::to_string(level.width) + " x " +
-              std::to_string(level.height) + " with " + std::to_string(level.channels) +
-              " channels; six square RGB faces, one below the other, are needed");
-}
-
 /// Level count of a full mip chain under faces of this size.
 int mip_count(int face_size) {
   return static_cast<int>(std::floor(std::log2(face_size))) + 1;
@@ -55,7 +48,6 @@ void make_finite(Image& level) {
 GlTexture make_reflection_texture(const ReflectionMap& reflections) {
   std::vector<Image> levels = reflections.levels;
   if (levels.empty()) levels.emplace_back(1, kFaces);
-  for (std::size_t k = 0; k < levels.size(); ++k) check_level(levels[k], k);
   int face_size = levels.front().width;
   // GL's chain ends at one texel: a coarser map with many levels is enlarged.
   while (mip_count(face_size) < static_cast<int>(levels.size())) face_size *= 2;

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string>
 
-#include "catchlight/error.hpp"
 #include "render/probe/cube_map.hpp"
 
 namespace catchlight::render {
@@ -70,12 +69,7 @@ CubeTexture::Level CubeTexture::make_level(const Image& faces) {
 }
 
 CubeTexture::CubeTexture(const ReflectionMap& map) {
-  for (const Image& level : map.levels) {
-    if (level.channels != 3 || level.width <= 0 || level.height != kFaces * level.width)
-      throw Error("a reflection level is " + std::to_string(level.width) + " x " + std::to_string(level.height) + " with " +
-                  std::to_string(level.channels) + " channels; six square RGB faces, one below the other, are needed");
-    levels_.push_back(make_level(level));
-  }
+  for (const Image& level : map.levels) levels_.push_back(make_level(level));
   if (levels_.empty()) levels_.push_back(make_level(Image(1, kFaces)));
 }
 

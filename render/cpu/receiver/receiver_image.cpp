@@ -64,16 +64,15 @@ PixelRect ReceiverImage::cell(int column, int row) const {
   return intersect({column * kCell, row * kCell, kCell, kCell}, {0, 0, rect_.width, rect_.height});
 }
 
-/// Whether the shadow turns at a corner, across or down.
+/// Whether the shadow turns at a corner, across or down. Beyond the rectangle it goes on as it is at its rim, where it may begin.
 bool ReceiverImage::is_bent(int column, int row) const {
+  const std::size_t middle = corner(column, row);
   const auto turns = [&](std::size_t before, std::size_t after) {
-    const std::size_t middle = corner(column, row);
-    return std::ranges::any_of(corners_, [&](const std::vector<float>& c) {
-      return std::abs(c[middle - before] - 2 * c[middle] + c[middle + after]) > kBend;
-    });
+    return std::ranges::any_of(
+        corners_, [&](const std::vector<float>& c) { return std::abs(c[before] - 2 * c[middle] + c[after]) > kBend; });
   };
-  const auto down = static_cast<std::size_t>(columns_ + 1);
-  return (column > 0 && column < columns_ && turns(1, 1)) || (row > 0 && row < rows_ && turns(down, down));
+  const auto at = [&](int x, int y) { return corner(std::clamp(x, 0, columns_), std::clamp(y, 0, rows_)); };
+  return turns(at(column - 1, row), at(column + 1, row)) || turns(at(column, row - 1), at(column, row + 1));
 }
 
 bool ReceiverImage::is_smooth(int column, int row) const {

@@ -135,6 +135,20 @@ TEST_F(ReceiverImage, BlurredIsWhatABlurOfAllPixelsGives) {
   EXPECT_LT(worst, 0.01) << "as much as interpolated cells may differ";
 }
 
+/// A shadow that is as deep as that everywhere begins at the very rim of what can be seen of it.
+TEST_F(ReceiverImage, AnEdgeAtTheReachsRimStaysSharp) {
+  const PlaneRect reach = shadow_.reach();
+  ASSERT_LT(reach.max_m.x - reach.min_m.x, 0.2f) << "no more than the shadow and a texel around it";
+  render::ReceiverImage image;
+  for (const double height_m : {0.3, 0.33, 0.37, 0.42, 0.5}) {
+    view_.camera_from_tag = look_down(height_m);
+    draw(image);
+    const Image ratio = read(image, 128);
+    for (int y = 0; y < ratio.height; ++y)
+      for (int x = 0; x < ratio.width; ++x) ASSERT_NEAR(ratio.pixel(x, y)[1], direct(x, y).y, 0.02) << x << ", " << y;
+  }
+}
+
 TEST_F(ReceiverImage, FromBelowThereIsNoShadow) {
   render::ReceiverImage image;
   draw(image);
