@@ -288,7 +288,8 @@ TEST_F(CompositorsGl, FloatAndSixteenBitPlates) {
       auto* code = reinterpret_cast<std::uint16_t*>(plate.pixels.data());
       for (int y = 0; y < rect.height; ++y)
         for (int x = 0; x < rect.width; ++x)
-          for (int c = 0; c < 3; ++c) *code++ = static_cast<std::uint16_t>(200 * table(rect.x + x, rect.y + y)[c] + 37 * (rect.x + x));
+          for (int c = 0; c < 3; ++c)
+            *code++ = static_cast<std::uint16_t>(200 * table(rect.x + x, rect.y + y)[c] + 37 * (rect.x + x));
       return plate;
     };
     expect_one_picture(shot);
