@@ -30,15 +30,15 @@ bool finite(const glm::mat3& m) {
   return finite(m[0], 3) && finite(m[1], 3) && finite(m[2], 3);
 }
 
-void require_cubes(const ReflectionMap& map) {
+}  // namespace
+
+void check_cubes(const ReflectionMap& map) {
   constexpr int kFaces = 6;
   for (const Image& level : map.levels)
     require(level.channels == 3 && level.width > 0 && level.height == kFaces * level.width,
             "a reflection level is " + std::to_string(level.width) + " x " + std::to_string(level.height) + " with " +
                 std::to_string(level.channels) + " channels; six square RGB faces, one below the other, are needed");
 }
-
-}  // namespace
 
 const RenderScene& checked(const RenderScene& scene) {
   const Mesh& mesh = scene.mesh;
@@ -63,7 +63,8 @@ const RenderScene& checked(const RenderScene& scene) {
     require(finite(light.direction, 3) && finite(light.irradiance, 3), "a light is not finite");
   if (!scene.lights.empty())
     require_count(transfer.object_direct.size(), transfer.object.size(), "direct transfer coefficients for the mesh's vertices");
-  require_cubes(scene.reflections), require_cubes(scene.rest_reflections);
+  check_cubes(scene.reflections);
+  check_cubes(scene.rest_reflections);
   const ReceiverGrid& grid = transfer.grid;
   if (grid.columns < 2 || grid.rows < 2) return scene;
   require_count(transfer.receiver.size(),

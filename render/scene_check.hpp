@@ -12,4 +12,7 @@ const RenderScene& checked(const RenderScene& scene);
 /// Throws Error naming what is not finite or out of range.
 void check_view(const FrameView& view);
 
+/// Throws Error for a level that is not six square RGB faces, one below the other.
+void check_cubes(const ReflectionMap& map);
+
 }  // namespace catchlight::render

@@ -85,7 +85,8 @@ bool print_graphics() {
 }  // namespace
 
 void set_up_info(CLI::App& command, Context& context) {
-  command.footer("Exit code 1 where no OpenGL context can be made: overlay cannot draw there.");
+  command.footer(
+      "Exit code 1 where no OpenGL context can be made: the processor draws there, unless --renderer gl is asked for.");
   command.callback([&context] {
     print("Catchlight", CATCHLIGHT_VERSION);
     print_libraries();

@@ -6,6 +6,7 @@
 
 #include "catchlight/error.hpp"
 #include "catchlight/image.hpp"
+#include "render/scene_check.hpp"
 
 namespace catchlight::render {
 namespace {
@@ -46,6 +47,7 @@ void make_finite(Image& level) {
 }  // namespace
 
 GlTexture make_reflection_texture(const ReflectionMap& reflections) {
+  check_cubes(reflections);
   std::vector<Image> levels = reflections.levels;
   if (levels.empty()) levels.emplace_back(1, kFaces);
   int face_size = levels.front().width;

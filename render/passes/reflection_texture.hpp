@@ -7,7 +7,7 @@
 namespace catchlight::render {
 
 /// Cube map whose mip levels are the map's roughness levels, filtered between texels, faces and levels. A level whose faces are
-/// not half as large as the one's before is resampled. No levels: black. Levels are six square faces: checked().
+/// not half as large as the one's before is resampled. No levels: black. Throws Error as check_cubes() does.
 GlTexture make_reflection_texture(const ReflectionMap& reflections);
 
 /// Scale and bias of F0 by (n.v, perceptual roughness).

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "render/probe/cube_map.hpp"
+#include "render/scene_check.hpp"
 
 namespace catchlight::render {
 namespace {
@@ -68,6 +69,7 @@ CubeTexture::Level CubeTexture::make_level(const Image& faces) {
 }
 
 CubeTexture::CubeTexture(const ReflectionMap& map) {
+  check_cubes(map);
   for (const Image& level : map.levels) levels_.push_back(make_level(level));
   if (levels_.empty()) levels_.push_back(make_level(Image(1, kFaces)));
 }

@@ -13,7 +13,7 @@ namespace catchlight::render {
 class CubeTexture {
  public:
   /// Texels that are NaN, infinite or negative count as 0, others are kept to a 2000th from 5e-10 to 4e9. A map without levels is
-  /// black. Faces are square: checked().
+  /// black. Throws Error as check_cubes() does.
   explicit CubeTexture(const ReflectionMap& map);
 
   int levels() const { return static_cast<int>(levels_.size()); }
