@@ -85,14 +85,14 @@ CubeTexture::Cell CubeTexture::cell_at(const Level& level, const Place& place) {
 glm::vec3 CubeTexture::sample(const glm::vec3& direction, float level) const {
   const Place place(direction);
   return rgb(between_levels(level, levels_.size(), [&](std::size_t number) {
-    const auto [texel, across, down] = cell_at(levels_[number], place);
+    const Cell cell = cell_at(levels_[number], place);
     const int stride = levels_[number].size + 2;
     const auto light = [&](int at) {
       using Bits = std::uint32_t __attribute__((vector_size(16)));
       constexpr auto kScale = std::bit_cast<float>((127u + kLessExponent) << 23);
-      return std::bit_cast<Float4>(__builtin_convertvector(texel[at], Bits) << kLessFraction) * splat(kScale);
+      return std::bit_cast<Float4>(__builtin_convertvector(cell.first[at], Bits) << kLessFraction) * splat(kScale);
     };
-    return blend(blend(light(0), light(1), across), blend(light(stride), light(stride + 1), across), down);
+    return blend(blend(light(0), light(1), cell.across), blend(light(stride), light(stride + 1), cell.across), cell.down);
   }));
 }
 
