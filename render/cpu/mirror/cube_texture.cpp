@@ -39,12 +39,12 @@ struct CubeTexture::Place {
 
 CubeTexture::Texel CubeTexture::coded(const float* rgb) {
   constexpr std::uint32_t kOffset = kLessExponent << 23, kHalf = 1u << (kLessFraction - 1);
-  constexpr auto kLeast = std::bit_cast<float>(kOffset + (1u << 23)), kMost = std::bit_cast<float>(kOffset + (0xffffu << 13));
+  constexpr auto kMin = std::bit_cast<float>(kOffset + (1u << 23)), kMax = std::bit_cast<float>(kOffset + (0xffffu << 13));
   Texel texel{};
   for (int c = 0; c < 3; ++c)
-    if (std::isfinite(rgb[c]) && rgb[c] >= kLeast)
+    if (std::isfinite(rgb[c]) && rgb[c] >= kMin)
       texel[c] =
-          static_cast<std::uint16_t>((std::bit_cast<std::uint32_t>(std::min(rgb[c], kMost)) - kOffset + kHalf) >> kLessFraction);
+          static_cast<std::uint16_t>((std::bit_cast<std::uint32_t>(std::min(rgb[c], kMax)) - kOffset + kHalf) >> kLessFraction);
   return texel;
 }
 

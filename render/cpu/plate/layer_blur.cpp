@@ -69,7 +69,7 @@ Float4 mean_along(const Image& image, int x, int y, const MotionTaps& taps) {
   for (int i = 0; i < count; ++i) to[i] = weight * from[i];
 }
 
-/// Of `row`, whose first and last pixels go on beyond the image.
+/// Blurs the pixels of `row` along it; the first and last pixels go on beyond the image.
 void blur_row(const Image& image, const PixelRect& row, const std::vector<float>& weights, float* to) {
   const int reach = static_cast<int>(weights.size()) - 1;
   thread_local std::vector<float> padded;
