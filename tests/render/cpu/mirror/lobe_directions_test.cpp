@@ -6,16 +6,12 @@
 #include <random>
 
 #include "shaders/shading.h"
+#include "tests/support/random_direction.hpp"
 
 namespace catchlight::render {
 namespace {
 
 std::mt19937 random_numbers(8);
-
-glm::vec3 random_direction() {
-  std::normal_distribution<float> normal;
-  return glm::normalize(glm::vec3(normal(random_numbers), normal(random_numbers), normal(random_numbers)));
-}
 
 TEST(LobePoints, AreDealtOutWhole) {
   for (const int count : {1, 3, 4, 32, 37})
@@ -36,7 +32,8 @@ TEST(LobeDirections, AreThoseOfTheFormulas) {
   LobeDirections directions;
   for (const float alpha : {0.0f, 0.01f, 0.09f, 1.0f})
     for (int i = 0; i < 100; ++i) {
-      Lobe lobe{random_direction(), random_direction(), 0.1f * random_direction(), 0.1f * random_direction(), alpha};
+      Lobe lobe{random_direction<float>(random_numbers), random_direction<float>(random_numbers),
+                0.1f * random_direction<float>(random_numbers), 0.1f * random_direction<float>(random_numbers), alpha};
       if (glm::dot(lobe.normal, lobe.to_viewer) < 0) lobe.to_viewer = -lobe.to_viewer;
       directions.find(lobe, points, points.number.size());
       const glm::mat3 frame = shading::frame_around(lobe.normal);

@@ -6,17 +6,13 @@
 
 #include "render/cpu/mirror/cube_texture.hpp"
 #include "render/mesh/bounds.hpp"
+#include "tests/support/random_direction.hpp"
 #include "tests/support/shapes.hpp"
 
 namespace catchlight::render {
 namespace {
 
 std::mt19937 random_numbers(8);
-
-glm::vec3 random_direction() {
-  std::normal_distribution<float> normal;
-  return glm::normalize(glm::vec3(normal(random_numbers), normal(random_numbers), normal(random_numbers)));
-}
 
 /// The inside of a box is its front.
 Mesh turned_inside_out(Mesh mesh) {
@@ -69,7 +65,7 @@ struct Room {
 
   std::vector<MirrorRay> traced(const glm::vec3& origin_m, int count) const {
     std::vector<MirrorRay> found;
-    for (int i = 0; i < count; ++i) found.push_back({origin_m, random_direction(), 0, 0, i % 16});
+    for (int i = 0; i < count; ++i) found.push_back({origin_m, random_direction<float>(random_numbers), 0, 0, i % 16});
     mirror.trace(found);
     return found;
   }
@@ -131,7 +127,7 @@ TEST(MirrorRays, OfASmoothedSurfaceDoNotMeetItself) {
       const glm::vec3 place = (1 - w.x - w.y) * corner(0).position_m + w.x * corner(1).position_m + w.y * corner(2).position_m;
       const glm::vec3 normal =
           glm::normalize((1 - w.x - w.y) * corner(0).normal + w.x * corner(1).normal + w.y * corner(2).normal);
-      glm::vec3 direction = random_direction();
+      glm::vec3 direction = random_direction<float>(random_numbers);
       if (glm::dot(direction, normal) < 0) direction = glm::reflect(direction, normal);
       found.push_back({room.mirror.start(place, normal), direction, 0, 0, i % 16});
     }

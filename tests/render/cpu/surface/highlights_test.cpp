@@ -6,22 +6,18 @@
 
 #include "render/render_scene.hpp"
 #include "shaders/shading.h"
+#include "tests/support/random_direction.hpp"
 
 namespace catchlight::render {
 namespace {
 
 std::mt19937 random_numbers(8);
 
-glm::dvec3 random_direction() {
-  std::normal_distribution<double> normal;
-  return glm::normalize(glm::dvec3(normal(random_numbers), normal(random_numbers), normal(random_numbers)));
-}
-
 std::vector<LightSample> random_samples(int count) {
   std::uniform_real_distribution<double> value(0, 1);
   std::vector<LightSample> samples;
   for (int i = 0; i < count; ++i)
-    samples.push_back({random_direction(),
+    samples.push_back({random_direction<double>(random_numbers),
                        {value(random_numbers), value(random_numbers), value(random_numbers)},
                        0.2 * value(random_numbers),
                        i % 3 != 0});
@@ -35,7 +31,8 @@ TEST(Highlights, AreTheSumOfWhatEachLampDoes) {
     Highlights highlights;
     highlights.set_samples(samples);
     for (int i = 0; i < 200; ++i) {
-      GlossySurface surface{glm::vec3(random_direction()), glm::vec3(random_direction()), 0.01f + value(random_numbers),
+      GlossySurface surface{glm::vec3(random_direction<double>(random_numbers)),
+                            glm::vec3(random_direction<double>(random_numbers)), 0.01f + value(random_numbers),
                             glm::vec3(value(random_numbers), value(random_numbers), value(random_numbers)),
                             value(random_numbers)};
       surface.alpha = std::min(surface.alpha, 1.0f);
