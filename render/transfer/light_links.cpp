@@ -4,7 +4,7 @@ namespace catchlight::render {
 namespace {
 
 const float* floats(std::span<const glm::vec3> values) {
-  return &values.data()->x;
+  return reinterpret_cast<const float*>(values.data());  // an empty span may have no address to take a member of
 }
 
 /// How many links ahead memory is asked for what they need: it lies all over, and would have to be waited for.
@@ -52,7 +52,7 @@ void LightLinks::gather(std::size_t point, std::size_t parts, float factor, std:
                         std::span<glm::vec3> arriving) const {
   const End begin = point == 0 ? End{} : ends_[2 * point - 1], end = ends_[2 * point + parts - 1];
   const std::size_t count = 3 * arriving.size();
-  float* sum = &arriving.data()->x;
+  float* sum = reinterpret_cast<float*>(arriving.data());
   sum_surfaces(std::span(surface_).subspan(begin.surface, end.surface - begin.surface), corners.data(), floats(from_object),
                factor, count, sum);
   sum_receiver(std::span(receiver_).subspan(begin.receiver, end.receiver - begin.receiver), floats(from_receiver), factor, count,
