@@ -114,7 +114,7 @@ const int kMoreBounces = 2;
 const float kMinFollowed = 0.1f;
 
 // One ray stands for this share of the width of the lobe that it chose its way from: the ways of a whole lobe's rays fill it.
-const float kFurtherShare = 0.6f;
+const float kFurtherShare = 0.75f;
 
 // The choice among a surface's facets of a ray of number `index` in its lobe, where it goes on from the surface that it meets after
 // `bounce` others. Evenly spread over the unit square (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences").

@@ -12,6 +12,8 @@ namespace {
 /// A polished surface's lobe is as wide as the pixel's footprint: so many rays smooth what it shows.
 constexpr int kPolishedRays = 4;
 constexpr std::size_t kPointsAtOnce = 256;
+/// So many neighbours, a square of them, look for the object along different rays of a rough lobe.
+constexpr int kLookersAcross = 4, kLookers = kLookersAcross * kLookersAcross;
 
 /// Neighbours share rays where their mirror directions differ by less than so many alphas, and they lie as deep to this share.
 /// Two take half of a lobe each, whose patterns would show side by side: they share farther.
@@ -45,6 +47,7 @@ MirroredLight::MirroredLight(const SurfaceMaterials& materials, const MirrorRays
   for (const int sharers : {1, 2, 4, 8})
     for (int sharer = 0; sharer < sharers; ++sharer)
       rough_points_.push_back(LobePoints::dealt(std::max(lobe_rays, 1), sharers, sharer));
+  for (int looker = 0; looker < kLookers; ++looker) look_points_.push_back(LobePoints::dealt(kLookers, kLookers, looker));
 }
 
 bool MirroredLight::mirrors(const SurfacePoint& point) const {
@@ -65,6 +68,7 @@ int MirroredLight::sharers_of(const Frame& frame, std::size_t index) const {
   if (point.coverage < 1) return roughness * roughness < kWideLobe ? 2 : 1;
   const float footprint = glm::length(footprint_x_[index]) + glm::length(footprint_y_[index]);
   const float share = footprint / (roughness * roughness);
+  if (near_hit_[point.pixel]) return share <= kFootprintOf2 ? 2 : 1;
   return share <= kFootprintOf8 ? 8 : share <= kFootprintOf4 ? 4 : share <= kFootprintOf2 ? 2 : 1;
 }
 
@@ -93,6 +97,15 @@ const LobePoints& MirroredLight::points_of(const Frame& frame, std::size_t index
   const int of2 = (x ^ y) & 1, of4 = (x & 1) | (y & 1) << 1, of8 = (x & 3) | (y & 1) << 2;
   const int sharer = sharers == 1 ? 0 : sharers == 2 ? of2 : sharers == 4 ? of4 : of8;
   return rough_points_[static_cast<std::size_t>(sharers - 1 + sharer)];
+}
+
+/// Where the point looks whether the object is mirrored.
+const LobePoints& MirroredLight::look_point_of(const Frame& frame, std::size_t index) const {
+  const SurfacePoint& point = frame.surface.points[index];
+  if (!is_rough(point)) return single_point_;
+  const PixelRect& rect = frame.surface.rect;
+  const int x = rect.x + static_cast<int>(point.pixel) % rect.width, y = rect.y + static_cast<int>(point.pixel) / rect.width;
+  return look_points_[static_cast<std::size_t>((x & (kLookersAcross - 1)) + kLookersAcross * (y & (kLookersAcross - 1)))];
 }
 
 void MirroredLight::find_mirror_directions(const Frame& frame) {
@@ -142,7 +155,7 @@ void MirroredLight::look_for_object(const Frame& frame) {
     rays.clear(), of.clear();
     for (std::size_t i = first; i < last; ++i) {
       if (!mirrors(points[i])) continue;
-      directions.find(lobe_of(frame, i), points_of(frame, i), 1);
+      directions.find(lobe_of(frame, i), look_point_of(frame, i), 1);
       rays.push_back({rays_.start(points[i].position_m, points[i].normal), directions.direction(0), 0, 0, 0});
       of.push_back(points[i].pixel);
     }
@@ -150,7 +163,7 @@ void MirroredLight::look_for_object(const Frame& frame) {
     for (std::size_t k = 0; k < rays.size(); ++k)
       if (rays[k].meets_object) hit_[of[k]] = 1;
   });
-  constexpr int kAround = 2;
+  constexpr int kAround = 3;
   for (int y = 0; y < rect.height; ++y)
     for (int x = 0; x < rect.width; ++x) {
       if (!hit_[static_cast<std::size_t>(y) * rect.width + x]) continue;

@@ -48,6 +48,7 @@ class MirroredLight {
   bool is_rough(const SurfacePoint& point) const;
   int sharers_of(const Frame& frame, std::size_t index) const;
   const LobePoints& points_of(const Frame& frame, std::size_t index) const;
+  const LobePoints& look_point_of(const Frame& frame, std::size_t index) const;
   Lobe lobe_of(const Frame& frame, std::size_t index) const;
   float ray_roughness(const SurfacePoint& point) const;
   void find_mirror_directions(const Frame& frame);
@@ -62,6 +63,7 @@ class MirroredLight {
   const MirrorRays& rays_;
   int lobe_rays_;
   std::vector<LobePoints> rough_points_;  ///< of 1 sharer, of each of 2, of each of 4 and of each of 8
+  std::vector<LobePoints> look_points_;   ///< one each, of neighbours in turn
   LobePoints polished_points_, single_point_;
   std::vector<glm::vec3> mirror_, footprint_x_, footprint_y_;  ///< of each point
   std::vector<char> hit_, near_hit_;  ///< a pixel each: whether its first ray, or a neighbour's, meets the object
