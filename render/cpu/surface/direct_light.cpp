@@ -14,11 +14,11 @@ namespace {
 
 constexpr auto kKind = "direct-light";
 // Raise when what is found or its members change: older files then no longer match.
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 4;
 
-/// Shares of the object's diagonal: how far above a surface its shadow is looked for, which smoothed normals need; how fine
-/// shadows are kept.
-constexpr float kLiftShare = 1.5f / 512, kLatticeShare = 1.0f / 384;
+/// Shares of the object's diagonal: how far above a surface its shadow is looked for; how much farther where normals tell that it
+/// is rounder than its triangles; how fine shadows are kept.
+constexpr float kLiftShare = 0.4f / 512, kRoundShare = 1.5f / 512, kLatticeShare = 1.0f / 384;
 /// Within triangles longer than this share of the diagonal, shadows are looked for that miss the corners: so far apart where the
 /// light stands still, else at four places.
 constexpr float kProbedShare = 1.0f / 64;
@@ -54,6 +54,7 @@ DirectLight::DirectLight(const Mesh& mesh, const RayScene& rays, const Bounds& o
     : mesh_(mesh),
       rays_(rays),
       lift_m_(object.empty() ? 0 : kLiftShare * object.rounded_diagonal_m()),
+      max_rounding_m_(kRoundShare / kLiftShare * lift_m_),
       fine_step_m_(object.empty() ? 1 : kLatticeShare * object.rounded_diagonal_m()),
       lattice_step_m_(fine_step_m_),
       probed_edge_m_(object.empty() ? 1 : kProbedShare * object.rounded_diagonal_m()) {}
@@ -152,8 +153,16 @@ DirectLightNode DirectLight::node_in(std::uint32_t triangle, const glm::vec2& we
   const std::uint32_t* corner = &mesh_.indices[3 * static_cast<std::size_t>(triangle)];
   const Vertex &a = mesh_.vertices[corner[0]], &b = mesh_.vertices[corner[1]], &c = mesh_.vertices[corner[2]];
   const glm::vec3 w(1 - weights.x - weights.y, weights);
-  return node_at(w.x * a.position_m + w.y * b.position_m + w.z * c.position_m,
-                 unit(w.x * a.normal + w.y * b.normal + w.z * c.normal), seen, unknown);
+  const glm::vec3 position_m = w.x * a.position_m + w.y * b.position_m + w.z * c.position_m;
+  // Without it, neighbouring triangles shade a round surface where light grazes it: Hanika 2021, "Hacking the Shadow Terminator".
+  glm::vec3 rounding_m(0);
+  for (int k = 0; k < 3; ++k) {
+    const Vertex& vertex = mesh_.vertices[corner[k]];
+    const glm::vec3 normal = unit(vertex.normal);
+    rounding_m -= w[k] * std::min(glm::dot(position_m - vertex.position_m, normal), 0.0f) * normal;
+  }
+  rounding_m *= std::min(1.0f, max_rounding_m_ / std::max(glm::length(rounding_m), 1e-20f));
+  return node_at(position_m + rounding_m, unit(w.x * a.normal + w.y * b.normal + w.z * c.normal), seen, unknown);
 }
 
 /// What the triangle's corners see, and, if it is large, some places between them.
@@ -252,7 +261,9 @@ glm::vec3 DirectLight::irradiance(const SurfacePoint& point, float* shares) cons
   const float sum = w.x + w.y + w.z;
   constexpr float kEnough = 0.1f;
   if (point.is_back || sum < kEnough) {  // what is kept is for the front, and for what is outside
-    const DirectLightNode node = node_at(point.position_m, point.normal, {}, bits_of(samples_.size()));
+    const Bits all = bits_of(samples_.size());
+    const DirectLightNode node = point.is_back ? node_at(point.position_m, point.normal, {}, all)
+                                               : node_in(point.triangle, point.weights, {}, all);
     for (std::size_t i = 0; shares && i < samples_.size(); ++i) shares[i] = node.sees(i) ? 1 : 0;
     return node.irradiance;
   }

@@ -83,7 +83,7 @@ class DirectLight {
 
   const Mesh& mesh_;
   const RayScene& rays_;
-  float lift_m_, fine_step_m_, lattice_step_m_, probed_edge_m_;
+  float lift_m_, max_rounding_m_, fine_step_m_, lattice_step_m_, probed_edge_m_;
   bool stands_still_ = true;
   std::vector<LightSample> samples_;
   std::vector<DirectLightNode> vertices_, lattice_nodes_;

@@ -112,7 +112,7 @@ int expect_shadows_on_floor(int cells, const Mesh& above, float step_m) {
   light.set_samples(kLamps, true);
   const std::vector<SurfacePoint> points = random_points(mesh, static_cast<std::uint32_t>(2 * cells * cells), 3000);
   light.prepare(points);
-  const float lift_m = 1.5f / 512 * bounds.diagonal_m();
+  const float lift_m = 0.4f / 512 * bounds.diagonal_m();
   // A shadow's edge is as wide as a step of the lattice: there it need not be the same.
   int at_edges = 0, in_shadow = 0;
   for (const SurfacePoint& point : points) {
@@ -139,6 +139,24 @@ TEST(DirectLight, IsInShadowWhereRaysAreBlocked) {
 /// Two triangles, none of whose corners, middles of edges or middle lies in the shadow.
 TEST(DirectLight, IsInShadowInTheMiddleOfALargeTriangle) {
   EXPECT_GT(expect_shadows_on_floor(1, box({0.1f, -0.27f, 0}, {0.16f, -0.21f, 0.16f}), std::sqrt(2.0f) / 96), 50);
+}
+
+/// Triangles of a coarse ball shade each other where light grazes them; the ball that their normals tell of does not.
+TEST(DirectLight, OfACoarseRoundBallEndsWhereThatOfARoundOneDoes) {
+  const Mesh mesh = sphere({0, 0, 0}, 0.1f, 16);
+  const RayScene rays(mesh);
+  DirectLight light(mesh, rays, bounds_of(mesh));
+  const std::vector<LightSample> lamp{sample_of({0.3, 0.2, 1}, {1, 1, 1})};
+  light.set_samples(lamp, true);
+  const std::vector<SurfacePoint> points = random_points(mesh, static_cast<std::uint32_t>(mesh.indices.size() / 3), 2000);
+  light.prepare(points);
+  int lit = 0;
+  for (const SurfacePoint& point : points) {
+    const float expected = std::max(glm::dot(point.normal, glm::vec3(lamp[0].direction)), 0.0f);
+    lit += expected > 0;
+    EXPECT_NEAR(light.irradiance(point, nullptr).x, expected, 0.02f) << point.position_m.x << ", " << point.position_m.y;
+  }
+  EXPECT_GT(lit, 800);
 }
 
 TEST(DirectLight, OfABackFaceIsThatOfItsOwnSide) {
