@@ -14,6 +14,7 @@ namespace {
 /// Pixels along a cell. It is interpolated where the shadow goes on evenly: the second differences at its corners are eight times
 /// what that may miss.
 constexpr int kCell = 4;
+static_assert(kCell <= PixelRays::kBeyond, "the outermost corners may lie beyond the frame");
 constexpr float kBend = 0.016f;
 
 /// Cells that hold so many pixels.

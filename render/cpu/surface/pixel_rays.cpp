@@ -13,13 +13,13 @@ void PixelRays::set_camera(const CameraModel& camera, const DistortionLimit& lim
   step_ = {1 / camera.fx_px, 1 / camera.fy_px};
   first_ = {-camera.cx_px / camera.fx_px, -camera.cy_px / camera.fy_px};
   if (!camera.has_distortion()) return;
-  const int columns = camera.width_px + 1;
-  std::vector<glm::vec2> table(static_cast<std::size_t>(columns) * (camera.height_px + 1));
-  parallel_for(static_cast<std::size_t>(camera.height_px) + 1, 0, [&](std::size_t y) {
-    for (int x = 0; x < columns; ++x) {
+  const std::size_t rows = static_cast<std::size_t>(camera.height_px) + kBeyond;
+  std::vector<glm::vec2> table(rows * columns());
+  parallel_for(rows, 0, [&](std::size_t y) {
+    for (int x = 0; x < columns(); ++x) {
       const auto ideal_px = undistort_px(camera, glm::dvec2(x, y), &limit);
       const float nothing = std::numeric_limits<float>::quiet_NaN();
-      table[y * columns + x] = ideal_px ? first_ + glm::vec2(*ideal_px) * step_ : glm::vec2(nothing);
+      table[y * columns() + x] = ideal_px ? first_ + glm::vec2(*ideal_px) * step_ : glm::vec2(nothing);
     }
   });
   table_ = std::move(table);

@@ -17,18 +17,23 @@ class PixelRays {
   /// `limit`: the camera's distortion limit.
   void set_camera(const CameraModel& camera, const DistortionLimit& limit);
 
+  /// So many columns and rows after the picture's last are known, too.
+  static constexpr int kBeyond = 4;
+
   /// At a pixel's centre. NaN where the lens sees nothing.
   glm::vec2 at(int x, int y) const {
-    return table_.empty() ? first_ + glm::vec2(x, y) * step_ : table_[static_cast<std::size_t>(y) * (camera_->width_px + 1) + x];
+    return table_.empty() ? first_ + glm::vec2(x, y) * step_ : table_[static_cast<std::size_t>(y) * columns() + x];
   }
 
   /// `offset` (-0.5 to 0.5) away from a pixel's centre: the lens bends nothing within a pixel.
   glm::vec2 at(int x, int y, const glm::vec2& offset) const;
 
  private:
+  int columns() const { return camera_->width_px + kBeyond; }
+
   std::optional<CameraModel> camera_;
   glm::vec2 first_{0}, step_{1};  ///< without distortion: at pixel (0, 0), and from pixel to pixel
-  std::vector<glm::vec2> table_;  ///< one more column and row than the picture has
+  std::vector<glm::vec2> table_;
 };
 
 }  // namespace catchlight::render

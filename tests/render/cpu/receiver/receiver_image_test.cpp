@@ -97,6 +97,20 @@ TEST_F(ReceiverImage, IsTheRatioOfWhatEachPixelSees) {
   EXPECT_GT(exact, 20000);
 }
 
+TEST_F(ReceiverImage, BehindALensThatBendsFillsTheFrame) {
+  view_.camera.distortion = {-0.2, 0.05, 0, 0, 0, 0, 0, 0};
+  view_.camera_from_tag = look_down(0.08);
+  render::ReceiverImage image;
+  draw(image);
+  const Image read_ratio = read(image, 128);
+  const auto place = [&](int x, int y) { return view_.camera_from_tag.translation_m.z * glm::dvec2(rays_of_.at(x, y)); };
+  for (int y = 0; y < read_ratio.height; ++y)
+    for (int x = 0; x < read_ratio.width; ++x) {
+      const glm::vec3 expected = shadow_.ratio(place(x, y) * glm::dvec2(1, -1));
+      for (int c = 0; c < 3; ++c) ASSERT_NEAR(read_ratio.pixel(x, y)[c], expected[c], 0.01f) << x << ", " << y;
+    }
+}
+
 TEST_F(ReceiverImage, IsTheSameInAnyPieces) {
   render::ReceiverImage image;
   draw(image);

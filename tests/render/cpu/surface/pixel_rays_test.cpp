@@ -29,6 +29,21 @@ TEST(PixelRays, AreSeenAtThePixelsThatTheyComeFrom) {
   }
 }
 
+TEST(PixelRays, AreKnownBeyondThePicturesLastPixels) {
+  for (const auto& lens : kLenses) {
+    const CameraModel camera = camera_of(lens);
+    const DistortionLimit limit = distortion_limit(camera);
+    PixelRays rays;
+    rays.set_camera(camera, limit);
+    for (int beyond = 0; beyond < PixelRays::kBeyond; ++beyond)
+      for (const glm::ivec2& pixel : {glm::ivec2(60, camera.height_px + beyond), {camera.width_px + beyond, 40}}) {
+        const auto seen = project_px(camera, glm::dvec3(glm::dvec2(rays.at(pixel.x, pixel.y)), 1), &limit);
+        ASSERT_TRUE(seen);
+        EXPECT_LT(glm::distance(*seen, glm::dvec2(pixel)), 1e-4) << pixel.x << ", " << pixel.y << " " << lens[0];
+      }
+  }
+}
+
 TEST(PixelRays, AreLinearWithinAPixelToAFiftiethOfIt) {
   for (const auto& lens : kLenses) {
     const CameraModel camera = camera_of(lens);
