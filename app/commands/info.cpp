@@ -66,7 +66,7 @@ void print_libraries() {
   print("AprilTag families", families);
 }
 
-bool print_graphics() {
+void print_graphics() {
   try {
     const auto context = render::make_headless_context();
     const render::GlInfo gl = render::gl_info();
@@ -75,24 +75,23 @@ bool print_graphics() {
     print("GL version", gl.version);
     print("GLSL version", gl.glsl_version);
     print("EGL platform", gl.platform);
-    return true;
   } catch (const Error& error) {
     print("GL", std::string("none: ") + error.what());
-    return false;
   }
+  const bool has_card = render::make_hardware_context() != nullptr;
+  print("--renderer auto", has_card ? "gl: there is a graphics card" : "cpu: there is no graphics card that GL can use");
 }
 
 }  // namespace
 
-void set_up_info(CLI::App& command, Context& context) {
-  command.footer(
-      "Exit code 1 where no OpenGL context can be made: the processor draws there, unless --renderer gl is asked for.");
-  command.callback([&context] {
+void set_up_info(CLI::App& command, Context&) {
+  command.footer("What was made for scenes is kept in the cache; XDG_CACHE_HOME names another folder for it.");
+  command.callback([] {
     print("Catchlight", CATCHLIGHT_VERSION);
     print_libraries();
     print("Processor", processor() + ", " + std::to_string(std::thread::hardware_concurrency()) + " threads");
     print("Cache", render::default_cache_folder());
-    if (!print_graphics()) context.exit_code = 1;
+    print_graphics();
   });
 }
 

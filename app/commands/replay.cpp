@@ -104,8 +104,8 @@ void replay(const Options& options, Context& context) {
   if (!apart.empty()) context.exit_code = 1;
   if (drifted.empty()) return;
   for (const std::string& line : drifted) context.log.error(line);
-  context.log.error("if the sheets in " + options.sheets + " show that this is right, run: catchlight replay " +
-                    options.location + " --bless");
+  if (!options.bless)
+    context.log.error("if the sheets in " + options.sheets + " show that this is right, run the same with --bless");
   context.exit_code = 1;
 }
 

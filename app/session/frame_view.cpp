@@ -43,8 +43,7 @@ PlanEntry noise_entry(Switch wanted, const NoiseModel& noise, const PlateColor& 
     why = "not measured: the tag's cells are too small, or the track file does not say";
   } else {
     why = "luma's grain is " + fixed_text(noise_codes(noise, response, kGrey), 2) + " codes on a grey of " +
-          fixed_text(kGrey, 2) + ", variance = " + number_text(noise.slope.g) + " x light + " + number_text(noise.floor.g) +
-          " in green";
+          fixed_text(kGrey, 2);
     if (!on) why += ", less than rounding's own";
     if (wanted == Switch::on) why += "; switched on";
   }

@@ -10,7 +10,10 @@
 #include "catchlight/util/text.hpp"
 #include "render/cache/content_cache.hpp"
 #include "render/math/sh.hpp"
+#include "render/mesh/bounds.hpp"
 #include "render/mesh/mesh_file.hpp"
+#include "render/receiver_light.hpp"
+#include "render/split_light.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -129,6 +132,19 @@ render::ReflectionMap scaled(render::ReflectionMap map, float gain) {
   for (Image& level : map.levels)
     for (float& value : level.data) value *= gain;
   return map;
+}
+
+/// How finely the lights' shadows on the receiver are drawn.
+PlanEntry shadow_texels_entry(const render::RenderScene& scene) {
+  const std::string name = "shadow texels";
+  if (scene.transfer.grid.columns < 2) return {name, "none", "receiver.plane is \"none\""};
+  const render::Bounds box = render::bounds_of(scene.mesh);
+  const render::OpenPlaneLight open =
+      render::open_plane_light(scene.transfer.receiver_unshadowed, render::split_light(scene));
+  const render::PlaneRect reach = render::shadow_reach(scene.lights, open, box);
+  if (reach.empty()) return {name, "none", "no light throws a shadow on the tag's plane that can be seen"};
+  const glm::ivec2 size = render::receiver_texels(reach, box).size;
+  return {name, std::to_string(size.x) + "x" + std::to_string(size.y), "192 across the object, as far as its lights' shadows reach"};
 }
 
 }  // namespace
@@ -251,10 +267,12 @@ const BuiltScene& SceneBuilder::build(const SceneSettings& settings, const Warni
   std::string drawn = number_text(built_.light_gain);
   for (const ScenePart part : {ScenePart::mesh, ScenePart::transfer, ScenePart::reflections, ScenePart::lights})
     drawn += ' ' + std::to_string(times_made(part));
-  if (drawn == drawn_) return built_;
-  scale_light();
-  drawn_ = drawn;
-  ++built_.version;
+  if (drawn != drawn_) {
+    scale_light();
+    drawn_ = drawn;
+    ++built_.version;
+  }
+  built_.plan.push_back(shadow_texels_entry(built_.scene));
   return built_;
 }
 

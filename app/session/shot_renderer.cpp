@@ -5,8 +5,10 @@
 #include "app/settings/look.hpp"
 #include "app/settings/parameters.hpp"
 #include "app/support/progress.hpp"
+#include "catchlight/error.hpp"
 #include "render/cpu/cpu_compositor.hpp"
 #include "render/gl_compositor.hpp"
+#include "render/surface_material.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -18,8 +20,12 @@ PlateReader reader(const Frame& frame) {
 /// The context to draw with; null where the processor is to draw.
 std::unique_ptr<render::GlContext> context_for(const SceneSettings& scene) {
   if (scene.renderer == Renderer::cpu) return nullptr;
-  if (scene.renderer == Renderer::gl || !scene.shader_folder.empty()) return render::make_headless_context();
-  return render::make_hardware_context();
+  if (scene.renderer != Renderer::gl && scene.shader_folder.empty()) return render::make_hardware_context();
+  try {
+    return render::make_headless_context();
+  } catch (const Error& error) {
+    throw Error(std::string(error.what()) + "\nThe processor draws without OpenGL: leave --renderer and --shader-dir out");
+  }
 }
 
 }  // namespace
@@ -123,6 +129,30 @@ void ShotRenderer::skip(FrameJob& job) {
   prepare();
   view(job);
   adaptation_.see(job.image.time_s(), compositor_->meter(job.view, reader(job.image)));
+}
+
+PlanEntry ShotRenderer::renderer_entry() const {
+  if (settings_.renderer != Renderer::automatic) return {"renderer", renderer_name_, "set by hand"};
+  if (!settings_.shader_folder.empty()) return {"renderer", renderer_name_, "--shader-dir has shaders for OpenGL"};
+  return {"renderer", renderer_name_, context_ ? "there is a graphics card" : "OpenGL is missing, or has no graphics card"};
+}
+
+PlanEntry ShotRenderer::reflection_entry() const {
+  const int rays = settings_.quality.reflection_rays;
+  if (!render::surface_materials(builder_.scene().scene.mesh).reflects)
+    return {"reflection rays", "none", "nothing of the object mirrors"};
+  if (rays == 0) return {"reflection rays", "none", "quality.reflection_rays is 0: the probe alone is mirrored"};
+  const std::string value = std::to_string(rays) + " over a rough lobe, 4 over a polished one";
+  if (context_) return {"reflection rays", value, "in each pixel that may mirror the object"};
+  return {"reflection rays", value, "2 to 8 neighbours with much the same lobe share them; traced where the object may be mirrored"};
+}
+
+std::vector<PlanEntry> ShotRenderer::plan() const {
+  std::vector<PlanEntry> plan = builder_.scene().plan;
+  if (plan.empty()) return plan;
+  plan.insert(plan.begin(), renderer_entry());
+  plan.push_back(reflection_entry());
+  return plan;
 }
 
 bool ShotRenderer::adapts() const {

@@ -57,7 +57,8 @@ class ShotRenderer {
   /// The times of the last render()'s passes; empty where nothing was drawn.
   const std::vector<render::PassTime>& pass_times() const { return pass_times_; }
 
-  const std::vector<PlanEntry>& plan() const { return builder_.scene().plan; }
+  /// What was chosen for the scene, and for what draws it; empty before prepare().
+  std::vector<PlanEntry> plan() const;
   const SceneBuilder& builder() const { return builder_; }
 
   /// What draws: GL_RENDERER, or "cpu"; empty before open_renderer().
@@ -65,6 +66,8 @@ class ShotRenderer {
 
  private:
   bool adapts() const;
+  PlanEntry renderer_entry() const;
+  PlanEntry reflection_entry() const;
   void draw(FrameJob& job);
 
   SceneSettings settings_;

@@ -235,8 +235,7 @@ std::vector<Parameter> quality_parameters() {
        "where more stop mattering.",
        IntegerKind{[](auto& s) { return &s.quality.bounces; }, 0, 16}},
       {"quality.light_samples", "", light,
-       "The lights that are split off the probe have at most this many shadow maps, one for each sample of a light; 0 splits "
-       "none off.",
+       "The lights that are split off the probe have at most this many samples, each with its shadow; 0 splits none off.",
        IntegerKind{[](auto& s) { return &s.quality.light_samples; }, 0, render::kMaxLightSamples}},
       {"quality.samples", "", passes, "The object's edges are drawn with this many samples a pixel.",
        IntegerKind{[](auto& s) { return &s.quality.samples; }, 1, 16}},

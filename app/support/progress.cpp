@@ -15,6 +15,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto kRedrawInterval = std::chrono::milliseconds(100);
 constexpr int kBarWidth = 28;
+/// Before, frames that wait in queues would tell of rates that there are not.
+constexpr double kRateAfter_s = 1;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -39,7 +41,7 @@ std::string progress_text(const std::string& label, std::int64_t done, std::opti
     text += std::to_string(done) + " %";
   else
     text += std::to_string(done) + (total ? '/' + std::to_string(*total) : "") + ' ' + unit;
-  if (done <= 0 || elapsed_s <= 0) return text;
+  if (done <= 0 || elapsed_s < kRateAfter_s) return text;
   const double rate = static_cast<double>(done) / elapsed_s;
   if (unit != "%") text += ", " + rounded(rate, 1) + " /s";
   if (total && *total > done) text += ", " + rounded(static_cast<double>(*total - done) / rate, 0) + " s left";

@@ -37,16 +37,23 @@ bool is_entry(const fs::path& file) {
   return digits.size() == kKeyDigits && digits.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
-// Whether the work went through; a warning says why not.
+// Whether the work went through; a warning says why not, the same whatever was to be kept.
 template <class Work>
-bool succeeds(const Work& work, const std::string& kind, const WarningHandler& warn) {
+bool succeeds(const Work& work, const WarningHandler& warn) {
+  const auto refuse = [&](const std::string& why) {
+    if (warn)
+      warn("what was made for this scene cannot be kept for next time: " + why +
+           "; make room there, or name a folder for it by XDG_CACHE_HOME");
+  };
   try {
     work();
     return true;
+  } catch (const fs::filesystem_error& error) {
+    refuse(error.path1().string() + ": " + error.code().message());
   } catch (const std::runtime_error& error) {
-    if (warn) warn("the scene's " + kind + " cannot be kept for next time: " + error.what());
-    return false;
+    refuse(error.what());
   }
+  return false;
 }
 
 }  // namespace
@@ -90,7 +97,7 @@ bool ContentCache::is_writable(const std::string& kind, const std::string& key, 
     fs::create_directories(folder_);
     const PendingFile made_and_removed(file(kind, key));
   };
-  return succeeds(make_and_remove, kind, warn);
+  return succeeds(make_and_remove, warn);
 }
 
 void ContentCache::write(const std::string& kind, const std::string& key, const Pass& pass, const WarningHandler& warn) const {
@@ -110,7 +117,7 @@ void ContentCache::write(const std::string& kind, const std::string& key, const 
     pending.commit();
     remove_oldest(path);
   };
-  succeeds(write_all, kind, warn);
+  succeeds(write_all, warn);
 }
 
 void ContentCache::keep(const std::string& kind, const std::string& key, const Pass& pass, const WarningHandler& warn) const {

@@ -37,6 +37,7 @@ TEST(ProgressText, UnknownTotalShowsTheCount) {
 
 TEST(ProgressText, StartHasNoRateYet) {
   EXPECT_EQ(progress_text("track", 0, {}, "frames", 0.0), "track 0 frames");
+  EXPECT_EQ(progress_text("track", 12, {}, "frames", 0.001), "track 12 frames") << "too early to tell a rate";
   EXPECT_EQ(progress_text("track", 0, 0, "frames", 0.0), "track 0/0 frames");
 }
 
