@@ -13,6 +13,9 @@ std::int64_t parse_frame_number(std::string_view text, const std::string& whole)
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc() || end != text.data() + text.size())
     throw UsageError("--frames " + whole + ": expected A:B, A:, :B or N (frame numbers; B itself is left out)");
+  if (number < 0)
+    throw UsageError("--frames " + whole +
+                     ": no frame has a number below 0; give the numbers of frames, not how far from the end");
   return number;
 }
 

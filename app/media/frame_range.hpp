@@ -14,7 +14,8 @@ struct FrameRange {
   bool contains(std::int64_t number) const { return number >= begin && number < end; }
 };
 
-/// "A:B" (B left out of it), "A:" or ":B"; "N" is that frame alone. The empty text is every frame. Throws UsageError.
+/// "A:B" (B left out of it), "A:" or ":B"; "N" is that frame alone. The empty text is every frame. Throws UsageError;
+/// numbers below 0 are refused, as they would mean the end's to those who know them from Python.
 FrameRange parse_frame_range(const std::string& text);
 
 }  // namespace catchlight::app

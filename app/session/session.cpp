@@ -69,13 +69,14 @@ void Session::prepare() {
 
 std::optional<FrameJob> Session::decode() {
   opened_track();
-  if (!progress_) progress_.emplace(log_, options_.task, frames_to_read(footage_->info(), options_.range));
+  if (!progress_) progress_.emplace(log_, options_.task, frames_in_range(footage_->info(), options_.range));
   try {
     std::optional<Frame> frame = measure("decode", [&] { return footage_->read(); });
     if (frame && frame->number() < options_.range.end) {
-      progress_->update(++pass_.decoded);
+      ++pass_.decoded;
       const bool is_before_range = frame->number() < options_.range.begin;
       if (!is_before_range) ++pass_.in_range;
+      progress_->update(pass_.in_range);
       return FrameJob{.image = std::move(*frame), .is_before_range = is_before_range};
     }
   } catch (const DamagedMedia& damaged) {

@@ -19,16 +19,23 @@ FrameRange with_a_second_more(FrameRange range, const SourceInfo& info) {
   return range;
 }
 
+/// The number behind the last frame of the range, where that can be known.
+std::optional<std::int64_t> end_of(const SourceInfo& info, const FrameRange& range) {
+  const bool has_end = range.end != FrameRange{}.end;
+  if (!info.frame_count) return has_end ? std::optional(range.end) : std::nullopt;
+  return std::min(range.end, info.first_number + *info.frame_count);
+}
+
 }  // namespace
 
-std::optional<std::int64_t> frames_to_read(const SourceInfo& info, const FrameRange& range) {
-  if (range.end != FrameRange{}.end && !info.frame_count) return range.end - info.first_number;
-  if (!info.frame_count) return {};
-  return std::min(*info.frame_count, range.end == FrameRange{}.end ? *info.frame_count : range.end - info.first_number);
+std::optional<std::int64_t> frames_in_range(const SourceInfo& info, const FrameRange& range) {
+  const std::optional<std::int64_t> end = end_of(info, range);
+  return end ? std::optional(*end - std::max(range.begin, info.first_number)) : std::nullopt;
 }
 
 std::optional<std::int64_t> frames_to_track(const SourceInfo& info, const FrameRange& range) {
-  return frames_to_read(info, with_a_second_more(range, info));
+  const std::optional<std::int64_t> end = end_of(info, with_a_second_more(range, info));
+  return end ? std::optional(*end - info.first_number) : std::nullopt;
 }
 
 SolvedShot solve_shot(MediaSource& source, const CameraModel& camera, const SceneSettings& scene, const FrameRange& range,

@@ -26,8 +26,8 @@ struct SolvedShot {
 SolvedShot solve_shot(MediaSource& source, const CameraModel& camera, const SceneSettings& scene, const FrameRange& range,
                       Log& log, StageTimer& stages);
 
-/// The frames from the source's first to the range's end, where that can be known; frames_to_track: those that solve_shot reads.
-std::optional<std::int64_t> frames_to_read(const SourceInfo& info, const FrameRange& range);
+/// How many frames of the source lie in the range, where that can be known; frames_to_track: how many solve_shot reads.
+std::optional<std::int64_t> frames_in_range(const SourceInfo& info, const FrameRange& range);
 std::optional<std::int64_t> frames_to_track(const SourceInfo& info, const FrameRange& range);
 
 }  // namespace catchlight::app

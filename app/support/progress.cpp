@@ -64,6 +64,7 @@ Progress::~Progress() {
 
 void Progress::update(std::int64_t done) {
   if (log_.quiet()) return;
+  if (done <= 0) start_ = Clock::now();
   const double elapsed_s = seconds_since(start_);
   if (on_terminal_)
     draw_bar(done, elapsed_s);

@@ -20,6 +20,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
+  /// The rate is that of what was done since the last update(0).
   void update(std::int64_t done);
 
  private:

@@ -169,6 +169,21 @@ TEST_F(SessionTest, FramesASecondCoverTheTrackingPass) {
   EXPECT_GE(1000 * static_cast<double>(report.frames) / report.fps, tracking_ms * static_cast<double>(report.frames) / 2);
 }
 
+/// Frames before the range are looked at, but they are not what was asked for.
+TEST_F(SessionTest, ProgressCountsTheFramesOfTheRange) {
+  SessionOptions options = one_frame();
+  options.range = {kFrame, kFrame + 2};
+  log_.set_quiet(false);
+  ::testing::internal::CaptureStderr();
+  {
+    Session session(recording(), options, log_);
+    while (std::optional<FrameJob> job = session.decode()) session.track(*job);
+  }
+  const std::string text = ::testing::internal::GetCapturedStderr();
+  EXPECT_THAT(text, HasSubstr("1/2 frames\n"));
+  EXPECT_THAT(text, HasSubstr("2/2 frames\n"));
+}
+
 TEST_F(SessionTest, ARangeBesideTheFootageIsRefusedAtOnce) {
   const auto opened = [&](FrameRange range) { return [this, range] { Session(recording(), {.range = range}, log_); }; };
   EXPECT_THAT(message_of<Error>(opened({99, 100})), HasSubstr("there is no frame 99; it has 36 from 0"));
