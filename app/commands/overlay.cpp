@@ -85,6 +85,10 @@ void set_up_overlay(CLI::App& command, Context& context) {
   command.add_option("--report", options->report, "write what was done and how long it took, JSON");
   command.add_option("--codec", options->sink.codec, "h264 or ffv1, instead of what the extension says")
       ->check(CLI::IsMember({"h264", "ffv1"}));
+  command
+      .add_option("--pixel-format", options->sink.pixel_format,
+                  "FFmpeg's name, such as yuv444p; else the footage's, and yuv420p where RGB becomes .mp4, .mov or y4m")
+      ->type_name("NAME");
   command.add_option("--crf", options->sink.crf, "H.264 quality, 0 (lossless) to 51")
       ->check(CLI::Range(0, 51))
       ->capture_default_str();

@@ -101,22 +101,22 @@ void scale(const Conversion& conversion, const std::uint8_t* const from[], const
                "cannot convert the pixel format");
 }
 
-void tag_converted(const AVFrame& from, AVFrame& to) {
+void tag_converted(const AVFrame& from, AVFrame& to, AVColorSpace of_rgb) {
   const auto layout = pixel_layout(to.format);
   if (is_rgb(to.format)) {
     to.colorspace = AVCOL_SPC_RGB;
     to.color_range = AVCOL_RANGE_JPEG;
   } else if (is_rgb(from.format)) {
-    to.colorspace = AVCOL_SPC_BT709;
+    to.colorspace = of_rgb;
     to.color_range = layout && layout->model == ColorModel::gray ? AVCOL_RANGE_JPEG : AVCOL_RANGE_MPEG;
   }
 }
 
 }  // namespace
 
-FramePtr convert(const AVFrame& picture, AVPixelFormat format) {
+FramePtr convert(const AVFrame& picture, AVPixelFormat format, AVColorSpace of_rgb) {
   FramePtr result = make_frame_like(picture, format);
-  tag_converted(picture, *result);
+  tag_converted(picture, *result, of_rgb);
   const bool to_rgb = is_rgb(format);
   const Conversion conversion{picture.width,       picture.height,
                               picture.format,      format,

@@ -8,9 +8,9 @@
 
 namespace catchlight::app {
 
-/// The whole frame. YUV is read by its own matrix and range (untagged: BT.601, limited), RGB becomes BT.709 limited-range YUV;
-/// tags say so.
-FramePtr convert(const AVFrame& picture, AVPixelFormat format);
+/// The whole frame. YUV is read by its own matrix and range (untagged: BT.601, limited), RGB becomes limited-range YUV of the
+/// matrix `of_rgb`; tags say so.
+FramePtr convert(const AVFrame& picture, AVPixelFormat format, AVColorSpace of_rgb = AVCOL_SPC_BT709);
 
 /// A part as RGB of 8 or 16 bits, packed or in planes. `rect` must begin and end on whole chroma samples or at the frame's edge.
 FramePtr convert_part(const AVFrame& picture, const PixelRect& rect, AVPixelFormat rgb_format);

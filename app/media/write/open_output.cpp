@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "app/media/write/exr_layers.hpp"
+#include "catchlight/error.hpp"
 
 namespace catchlight::app {
 
@@ -29,6 +30,8 @@ bool holds_layers(const std::string& path) {
 
 std::unique_ptr<FrameOutput> open_output(const std::string& path, const std::string& source_location, const MediaSource& source,
                                          const SinkOptions& options) {
+  if (holds_layers(path) && !options.pixel_format.empty())
+    throw UsageError("--pixel-format: " + path + " is layers, which hold half floats; leave it out");
   if (holds_layers(path)) return open_exr_layers(path, source_location, source.info(), options);
   return std::make_unique<MediaOutput>(MediaSink::open(path, source_location, source, options));
 }

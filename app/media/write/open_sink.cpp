@@ -5,11 +5,16 @@
 #include <filesystem>
 #include <string_view>
 
+#include "app/media/pixels/pixel_layout.hpp"
 #include "app/media/write/output_sequence.hpp"
 #include "app/media/write/sequence_sink.hpp"
 #include "app/media/write/video_sink.hpp"
 #include "app/support/output_file.hpp"
 #include "catchlight/error.hpp"
+
+extern "C" {
+#include <libavutil/pixdesc.h>
+}
 
 namespace catchlight::app {
 namespace {
@@ -76,11 +81,25 @@ AVRational frame_rate_of(const MediaSource& source) {
   return av_d2q(source.info().frame_rate > 0 ? source.info().frame_rate : 25, 1001000);
 }
 
+/// The pixel format that is asked for. Without, players of these files decide for RGB, whose nearest format, 4:4:4, many of them
+/// refuse; empty where the footage's own may be kept.
+std::string pixel_format_for(VideoCodec codec, std::string_view muxer, const SourceInfo& source, const SinkOptions& options) {
+  if (!options.pixel_format.empty()) {
+    check_pixel_format(codec, options.pixel_format, source.width_px, source.height_px);
+    return options.pixel_format;
+  }
+  const bool is_for_players = codec == VideoCodec::y4m || (codec == VideoCodec::h264 && (muxer == "mp4" || muxer == "mov"));
+  const bool is_even = source.width_px % 2 == 0 && source.height_px % 2 == 0;
+  const std::optional<PixelLayout> layout = pixel_layout(av_get_pix_fmt(source.pixel_format.c_str()));
+  return is_for_players && is_even && layout && layout->model == ColorModel::rgb ? "yuv420p" : "";
+}
+
 std::unique_ptr<MediaSink> open_sequence(const std::string& path, SequencePattern pattern, const std::string& source_location,
                                          const MediaSource& source, const SinkOptions& options) {
   if (lower_extension(path) != ".png") throw UsageError("'" + path + "': sequences are written as .png");
   check_output_sequence(pattern, source_location, source.info(), options);
-  return std::make_unique<SequenceSink>(std::move(pattern), options.overwrite);
+  pixel_format_for(VideoCodec::png, "", source.info(), options);
+  return std::make_unique<SequenceSink>(std::move(pattern), options);
 }
 
 }  // namespace
@@ -95,6 +114,7 @@ std::unique_ptr<MediaSink> MediaSink::open(const std::string& path, const std::s
                            "",     frame_rate_of(source),        source.info().first_number,
                            options};
   if (request.codec == VideoCodec::h264) check_quality(options);
+  request.options.pixel_format = pixel_format_for(request.codec, request.muxer, source.info(), options);
   if (path != "-") refuse_same_file(path, source_location);
   // A camera or stream cannot be read a second time; y4m has no audio.
   if (!source.info().is_sequence && !source.info().is_live && request.codec != VideoCodec::y4m)

@@ -8,8 +8,8 @@ namespace catchlight::app {
 
 void SequenceSink::write(const Frame& frame) {
   const std::string path = pattern_.file(frame.number()), what = "cannot write '" + path + "'";
-  const PendingFile& file = files_.emplace_back(pending_output(path, overwrite_));
-  if (!encoder_) encoder_ = open_encoder(VideoCodec::png, frame.picture(), {1, 1}, false, {});
+  const PendingFile& file = files_.emplace_back(pending_output(path, options_.overwrite));
+  if (!encoder_) encoder_ = open_encoder(VideoCodec::png, frame.picture(), {1, 1}, false, options_);
   const FramePtr picture = frame_for(*encoder_, frame.picture());
   check_ffmpeg(avcodec_send_frame(encoder_.get(), picture.get()), what);
   check_ffmpeg(avcodec_receive_packet(encoder_.get(), packet_.get()), what);

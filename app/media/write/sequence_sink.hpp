@@ -12,13 +12,13 @@ namespace catchlight::app {
 /// 8-bit RGB (or grey, or with alpha) from 8-bit footage, 16-bit from deeper; all files get their names in finish().
 class SequenceSink final : public MediaSink {
  public:
-  SequenceSink(SequencePattern pattern, bool overwrite) : pattern_(std::move(pattern)), overwrite_(overwrite) {}
+  SequenceSink(SequencePattern pattern, const SinkOptions& options) : pattern_(std::move(pattern)), options_(options) {}
   void write(const Frame& frame) override;
   void finish() override;
 
  private:
   SequencePattern pattern_;
-  bool overwrite_;
+  SinkOptions options_;
   CodecPtr encoder_;
   PacketPtr packet_ = make_packet();
   std::vector<PendingFile> files_;

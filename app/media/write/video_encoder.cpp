@@ -7,6 +7,7 @@
 #include "app/media/pixels/convert.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/response.hpp"
+#include "catchlight/util/text.hpp"
 
 extern "C" {
 #include <libavutil/cpu.h>
@@ -30,27 +31,34 @@ constexpr AVPixelFormat kY4mFormats[] = {
 
 struct CodecTraits {
   const char* name;  // FFmpeg's
+  const char* user_name;
   const char* package_hint;
 };
 
 CodecTraits traits(VideoCodec codec) {
   switch (codec) {
     case VideoCodec::h264:
-      return {"libx264", "an FFmpeg with libx264"};
+      return {"libx264", "H.264", "an FFmpeg with libx264"};
     case VideoCodec::ffv1:
-      return {"ffv1", "an FFmpeg with FFV1"};
+      return {"ffv1", "FFV1", "an FFmpeg with FFV1"};
     case VideoCodec::y4m:
-      return {"wrapped_avframe", "an FFmpeg with wrapped frames"};
+      return {"wrapped_avframe", "y4m", "an FFmpeg with wrapped frames"};
     case VideoCodec::png:
-      return {"png", "an FFmpeg with PNG"};
+      return {"png", "PNG", "an FFmpeg with PNG"};
   }
   throw std::logic_error("unknown codec");
 }
 
-const AVPixelFormat* formats_of(VideoCodec codec, const AVCodec& encoder, const AVFrame& first) {
+const AVCodec& found_encoder(VideoCodec codec) {
+  const AVCodec* found = avcodec_find_encoder_by_name(traits(codec).name);
+  if (!found) throw Error("cannot encode: " + std::string(traits(codec).package_hint) + " is needed");
+  return *found;
+}
+
+const AVPixelFormat* formats_of(VideoCodec codec, int width_px, int height_px) {
   if (codec == VideoCodec::y4m) return kY4mFormats;
-  if (codec != VideoCodec::h264) return encoder.pix_fmts;
-  return first.width % 2 == 0 && first.height % 2 == 0 ? kH264Formats : kH264OddFormats;
+  if (codec != VideoCodec::h264) return found_encoder(codec).pix_fmts;
+  return width_px % 2 == 0 && height_px % 2 == 0 ? kH264Formats : kH264OddFormats;
 }
 
 void copy_tags(AVCodecContext& encoder, const AVFrame& converted) {
@@ -87,15 +95,26 @@ void set_quality(VideoCodec codec, const SinkOptions& options, AVRational frame_
 
 }  // namespace
 
+void check_pixel_format(VideoCodec codec, const std::string& name, int width_px, int height_px) {
+  const AVPixelFormat asked = av_get_pix_fmt(name.c_str());
+  std::vector<std::string> known;
+  for (const AVPixelFormat* format = formats_of(codec, width_px, height_px); *format != AV_PIX_FMT_NONE; ++format) {
+    if (*format == asked) return;
+    known.emplace_back(av_get_pix_fmt_name(*format));
+  }
+  throw UsageError("--pixel-format " + name + ": " + traits(codec).user_name + " of " + std::to_string(width_px) + "x" +
+                   std::to_string(height_px) + " cannot have it; expected " + quoted_list(known));
+}
+
 CodecPtr open_encoder(VideoCodec codec, const AVFrame& first, AVRational frame_rate, bool global_header,
                       const SinkOptions& options) {
-  const AVCodec* found = avcodec_find_encoder_by_name(traits(codec).name);
-  if (!found) throw Error("cannot encode: " + std::string(traits(codec).package_hint) + " is needed");
-  CodecPtr encoder(allocated(avcodec_alloc_context3(found)));
-  const FramePtr shown = with_display_codes(first);
+  const AVCodec& found = found_encoder(codec);
+  CodecPtr encoder(allocated(avcodec_alloc_context3(&found)));
   encoder->width = first.width;
   encoder->height = first.height;
-  encoder->pix_fmt = nearest_format(static_cast<AVPixelFormat>(shown->format), formats_of(codec, *found, first));
+  encoder->pix_fmt = options.pixel_format.empty() ? nearest_format(static_cast<AVPixelFormat>(with_display_codes(first)->format),
+                                                                   formats_of(codec, first.width, first.height))
+                                                  : av_get_pix_fmt(options.pixel_format.c_str());
   encoder->time_base = first.time_base;
   encoder->framerate = frame_rate;
   encoder->thread_count = codec == VideoCodec::png || codec == VideoCodec::y4m ? 1 : 4;
@@ -104,16 +123,19 @@ CodecPtr open_encoder(VideoCodec codec, const AVFrame& first, AVRational frame_r
   copy_tags(*encoder, *frame_for(*encoder, first));
   Options settings;
   set_quality(codec, options, frame_rate, first.width, settings);
-  check_ffmpeg(avcodec_open2(encoder.get(), found, settings.get()),
+  check_ffmpeg(avcodec_open2(encoder.get(), &found, settings.get()),
                "cannot encode " + std::to_string(first.width) + "x" + std::to_string(first.height) + " " +
-                   av_get_pix_fmt_name(encoder->pix_fmt) + " with " + found->name +
+                   av_get_pix_fmt_name(encoder->pix_fmt) + " with " + found.name +
                    (codec == VideoCodec::h264 ? " (preset '" + options.preset + "')" : ""));
   return encoder;
 }
 
 FramePtr frame_for(const AVCodecContext& encoder, const AVFrame& picture) {
   FramePtr frame = with_display_codes(picture);
-  if (frame->format != encoder.pix_fmt) frame = convert(*frame, encoder.pix_fmt);
+  // y4m does not say its matrix, and readers such as FFmpeg take BT.601 for granted.
+  const bool says_no_matrix = encoder.codec_id == AV_CODEC_ID_WRAPPED_AVFRAME;
+  if (frame->format != encoder.pix_fmt)
+    frame = convert(*frame, encoder.pix_fmt, says_no_matrix ? AVCOL_SPC_SMPTE170M : AVCOL_SPC_BT709);
   frame->pict_type = AV_PICTURE_TYPE_NONE;
   frame->key_frame = 0;
   // PNG readers go by its gamma, and BT.709's bare curve is not how such footage is meant; see TransferFunction.

@@ -10,8 +10,11 @@ namespace catchlight::app {
 
 enum class VideoCodec { h264, ffv1, y4m, png };
 
-/// An encoder for frames like `first`: its size, colour tags, aspect ratio and time base, and its pixel format or the nearest
-/// that the codec has. Encoders run with a fixed number of threads, since x264's output depends on it.
+/// Throws UsageError where the codec has no pixel format of that name, for frames of that size.
+void check_pixel_format(VideoCodec codec, const std::string& name, int width_px, int height_px);
+
+/// An encoder for frames like `first`: its size, colour tags, aspect ratio and time base, and the pixel format that is asked for
+/// or the nearest to its own that the codec has. Encoders run with a fixed number of threads, since x264's output depends on it.
 CodecPtr open_encoder(VideoCodec codec, const AVFrame& first, AVRational frame_rate, bool global_header,
                       const SinkOptions& options);
 
