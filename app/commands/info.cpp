@@ -1,4 +1,3 @@
-#include <assimp/version.h>
 #include <embree3/rtcore.h>
 
 #include <OpenEXR/OpenEXRConfig.h>
@@ -59,8 +58,6 @@ void print_libraries() {
   print("OpenCV", cv::getVersionString());
   print("OpenEXR", OPENEXR_VERSION_STRING);
   print("Embree", embree_version());
-  print("Assimp", std::to_string(aiGetVersionMajor()) + '.' + std::to_string(aiGetVersionMinor()) + '.' +
-                      std::to_string(aiGetVersionPatch()));
   std::string families;
   for (const std::string& family : tracking::tag_families()) families += (families.empty() ? "" : ", ") + family;
   print("AprilTag families", families);

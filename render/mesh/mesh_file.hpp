@@ -10,9 +10,10 @@
 namespace catchlight::render {
 
 /// Reads glTF 2.0 (.glb, .gltf) with node transforms applied, OBJ and PLY. Units are metres. Makes normals where the file has
-/// none (area and angle weighted, smooth). Base colour textures and vertex colours end up in Vertex::color, so albedo varies as
-/// finely as the vertices. Triangles without area are left out with a warning. Throws Error naming the file: unreadable, no
-/// triangles, non-finite positions, indices out of range, an unknown required extension.
+/// none: flat ones, but smooth ones where OBJ's smoothing groups say so, and where PLY bends little. Base colour textures and
+/// vertex colours end up in Vertex::color, so albedo varies as finely as the vertices. Triangles without area are left out with a
+/// warning. Throws Error naming the file: unreadable, no triangles, non-finite positions, indices out of range, an unknown
+/// required extension.
 Mesh load_mesh(const std::string& path, const WarningHandler& warn);
 
 /// The files that load_mesh reads for that one: itself first, then those that it names (glTF's buffers and textures, OBJ's

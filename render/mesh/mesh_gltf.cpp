@@ -184,10 +184,12 @@ class Importer {
 
 }  // namespace
 
-Mesh import_gltf(const std::string& path, const WarningHandler& warn) {
+ImportedMesh import_gltf(const std::string& path, const WarningHandler& warn) {
   const Document document = open(path);
   try {
-    return Importer(document, warn).run();
+    ImportedMesh imported;
+    imported.mesh = Importer(document, warn).run();
+    return imported;
   } catch (const std::out_of_range&) {
     throw Error(path + ": damaged glTF: a scene, node or mesh is named that does not exist");
   }

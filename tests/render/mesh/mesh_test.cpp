@@ -63,10 +63,10 @@ TEST_F(MeshFile, EmptyObjAndPlyAreRefused) {
   for (const char* name : {"a.obj", "a.ply", "b.ply"}) EXPECT_NE(error_of([&] { load(name); }).find(name), std::string::npos);
 }
 
-TEST_F(MeshFile, SphereWithoutNormalsGetsRadialOnes) {
+TEST_F(MeshFile, SmoothSphereWithoutNormalsGetsRadialOnes) {
   // Area and angle weights: the cut of each quadrilateral into triangles must not tilt the normals.
   const Mesh exact = sphere({0, 0, 0}, 1, 24);
-  std::string obj;
+  std::string obj = "s 1\n";
   for (const Vertex& v : exact.vertices) {
     obj += "v " + std::to_string(v.position_m.x) + " " + std::to_string(v.position_m.y) + " " + std::to_string(v.position_m.z) +
            "\n";
