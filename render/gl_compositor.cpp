@@ -13,12 +13,12 @@
 #include "render/gl/shader_library.hpp"
 #include "render/mesh/bounds.hpp"
 #include "render/mesh/mesh.hpp"
+#include "render/object_layers.hpp"
 #include "render/passes/camera_blur_pass.hpp"
 #include "render/passes/composite_pass.hpp"
 #include "render/passes/glare/aperture_glare_pass.hpp"
 #include "render/passes/glare/glare_pass.hpp"
 #include "render/passes/light_transfer.hpp"
-#include "render/passes/object_layers.hpp"
 #include "render/passes/object_pass.hpp"
 #include "render/passes/receiver_pass.hpp"
 #include "render/passes/shadowed_lights.hpp"
@@ -56,6 +56,7 @@ struct GlCompositor::Impl {
   void draw_virtual_layer(const FramePlan& plan, Composite& result);
   void draw_object(const FramePlan& plan);
   void draw_receiver(const FramePlan& plan);
+  void blur(const FramePlan& plan);
   bool find_highlights(const FramePlan& plan);
   PixelRect spread_glare(const CameraModel& camera);
   void draw_composite(const FrameView& view, const FramePlan& plan, const Composite& result);
@@ -80,7 +81,7 @@ struct GlCompositor::Impl {
   ShadowedLights lights;
   ObjectPass object;
   std::unique_ptr<ReceiverPass> receiver;
-  CameraBlur camera_blur;
+  CameraBlur object_blur, shadow_blur, emission_blur, reflection_blur, geometry_blur;
   GlarePass glare;
   std::unique_ptr<ApertureGlarePass> aperture_glare;  ///< takes the place of `glare` where settings.glare.method is fft
   CompositePass composite;
@@ -89,7 +90,10 @@ struct GlCompositor::Impl {
   std::optional<glm::dmat3> lit_from;  ///< the light's turn that the points are lit for
   std::unique_ptr<ObjectTarget> object_target;
   std::unique_ptr<ColorTarget<1>> shadow_target;
-  const GlTexture *object_seen = nullptr, *shadow_seen = nullptr;  ///< object and shadow after the camera's blur
+  /// The virtual layer after the camera's blur. Null: not drawn in this frame.
+  struct Seen {
+    const GlTexture *object, *shadow, *emission, *reflection;
+  } seen{};
   std::vector<PassTime> times;
 };
 
@@ -103,7 +107,11 @@ GlCompositor::Impl::Impl(const RenderScene& scene, const CompositorSettings& wan
       lights(static_cast<int>(scene.lights.size()), bounds, shaders),
       object(scene.mesh, LitPoints("object", scene.transfer.object, scene.transfer.object_direct, sh_count(scene.transfer.bands)),
              scene.reflections, scene.rest_reflections, kRayStartShare * kSkinShare * bounds.rounded_diagonal_m(), shaders),
-      camera_blur(shaders),
+      object_blur(shaders),
+      shadow_blur(shaders),
+      emission_blur(shaders),
+      reflection_blur(shaders),
+      geometry_blur(shaders),
       glare(wanted.glare, shaders),
       composite(shaders) {
   settings.samples = supported_samples(wanted.samples);
@@ -189,11 +197,22 @@ void GlCompositor::Impl::draw_receiver(const FramePlan& plan) {
   if (plan.draws_receiver) receiver->draw(*shadow_target, plan.virtual_rect, plan.frame.width, plan.frame.height);
 }
 
+/// All that is light is blurred as the object is. Normals and depth are too, but kept sharp where the sharp object is.
+void GlCompositor::Impl::blur(const FramePlan& plan) {
+  const auto apply = [&](CameraBlur& blur, const MotionField& motion, const GlTexture*& texture) {
+    if (texture) texture = &blur.apply(plan.blur, motion, *texture, plan.virtual_rect);
+  };
+  apply(object_blur, plan.blur.object, seen.object);
+  apply(shadow_blur, plan.blur.shadow, seen.shadow);
+  apply(emission_blur, plan.blur.object, seen.emission);
+  apply(reflection_blur, plan.blur.object, seen.reflection);
+  if (plan.makes_layers) geometry_blur.apply(plan.blur, plan.blur.object, object_target->normal_depth(), plan.virtual_rect);
+}
+
 bool GlCompositor::Impl::find_highlights(const FramePlan& plan) {
   const PixelRect& rect = plan.virtual_rect;
-  if (aperture_glare) return aperture_glare->extract(*object_seen, rect, plan.frame.width, plan.frame.height);
-  const GlTexture* emission = divides_glare() ? &object_target->emission() : nullptr;
-  return glare.extract(*object_seen, emission, rect, plan.frame.width, plan.frame.height);
+  if (aperture_glare) return aperture_glare->extract(*seen.object, rect, plan.frame.width, plan.frame.height);
+  return glare.extract(*seen.object, seen.emission, rect, plan.frame.width, plan.frame.height);
 }
 
 PixelRect GlCompositor::Impl::spread_glare(const CameraModel& camera) {
@@ -205,11 +224,9 @@ void GlCompositor::Impl::draw_virtual_layer(const FramePlan& plan, Composite& re
   make_targets(plan);
   pass("object", [&] { draw_object(plan); });
   pass("receiver", [&] { draw_receiver(plan); });
-  object_seen = &object_target->color(), shadow_seen = &shadow_target->texture();
-  if (!plan.blur.empty()) {
-    pass("lens blur", [&] { camera_blur.apply(plan.blur, *object_seen, *shadow_seen, plan.virtual_rect); });
-    object_seen = &camera_blur.object(), shadow_seen = &camera_blur.shadow();
-  }
+  seen = {&object_target->color(), &shadow_target->texture(), divides_glare() ? &object_target->emission() : nullptr,
+          plan.makes_layers ? &object_target->reflection() : nullptr};
+  if (!plan.blur.empty()) pass("lens blur", [&] { blur(plan); });
   if (plan.seeks_glare) pass("highlights", [&] { result.glare_drawn = find_highlights(plan); });
 }
 
@@ -220,7 +237,7 @@ void GlCompositor::Impl::upload_plate(const PlateReader& plate, const PixelRect&
 }
 
 void GlCompositor::Impl::draw_composite(const FrameView& view, const FramePlan& plan, const Composite& result) {
-  VirtualLayer layer{plan.virtual_rect, object_seen, shadow_seen, nullptr};
+  VirtualLayer layer{plan.virtual_rect, seen.object, seen.shadow, nullptr, seen.reflection};
   layer.passed_at_tag = plan.passed_at_tag;
   if (result.glare_drawn) layer.glare = &glare;
   if (result.glare_drawn && aperture_glare) layer.pixel_glare = &aperture_glare->glare();
@@ -240,8 +257,14 @@ void GlCompositor::Impl::apply_tone(const FrameView& view, const FramePlan& plan
 }
 
 void GlCompositor::Impl::read_layers(const FramePlan& plan, Layers& layers) {
+  layers = empty_layers(plan.frame);
   composite.read_layers(layers);
-  read_object_layers(object_target.get(), plan.virtual_rect, plan.frame, layers);
+  if (!plan.draws_virtual()) return;
+  const PixelRect& rect = plan.virtual_rect;
+  const Image color = object_target->read(0, rect.width, rect.height);
+  add_geometry(color, object_target->read(2, rect.width, rect.height), rect, layers);
+  if (plan.blur.empty()) return;
+  add_geometry(object_blur.read(rect.width, rect.height), geometry_blur.read(rect.width, rect.height), rect, layers);
 }
 
 Composite GlCompositor::Impl::render(const FrameView& view, const PlateReader& plate, bool want_layers, bool want_picture) {

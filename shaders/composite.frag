@@ -9,6 +9,7 @@ layout(binding = TEXTURE_OBJECT) uniform sampler2D object;    // premultiplied e
 layout(binding = TEXTURE_SHADOW) uniform sampler2D shadow;    // ratio
 layout(binding = TEXTURE_PLATE) uniform sampler2D plate;      // codes
 layout(binding = TEXTURE_GLARE) uniform sampler2D glare_grid; // exposed linear
+layout(binding = TEXTURE_REFLECTION) uniform sampler2D reflection; // as the object, of which it is a part; layers alone read it
 
 layout(location = 0) out vec4 result;  // codes, alpha 1 where changed; or linear light
 // Layers, linear: result = plate * shadow * (1 - object.a) + object + glare.
@@ -16,6 +17,7 @@ layout(location = 1) out vec4 plate_layer;
 layout(location = 2) out vec4 object_layer;
 layout(location = 3) out vec4 shadow_layer;
 layout(location = 4) out vec4 glare_layer;
+layout(location = 5) out vec4 reflection_layer;
 
 vec3 finite_or_zero(vec3 v) { return mix(v, vec3(0.0), bvec3(uvec3(isnan(v)) | uvec3(isinf(v)))); }
 
@@ -40,7 +42,8 @@ void main() {
   bool reached = all(greaterThanEqual(in_virtual, ivec2(0))) && all(lessThan(in_virtual, composite.virtual_rect.zw));
   vec4 over = reached ? texelFetch(object, in_virtual, 0) : vec4(0.0);
   vec3 ratio = reached ? texelFetch(shadow, in_virtual, 0).rgb : vec3(1.0);
-  over.rgb *= vignetting_at(pixel);
+  float passed = vignetting_at(pixel);
+  over.rgb *= passed;
   vec3 glare = glare_at(pixel);
   vec3 code = texelFetch(plate, pixel - composite.plate_rect.xy, 0).rgb;
 
@@ -67,4 +70,5 @@ void main() {
   object_layer = over;
   shadow_layer = vec4(mix(vec3(1.0), shadowed / background, greaterThan(background, vec3(0.0))), 1.0);
   glare_layer = vec4(glare, 1.0);
+  reflection_layer = reached ? vec4(passed * texelFetch(reflection, in_virtual, 0).rgb, 1.0) : vec4(0.0);
 }

@@ -57,6 +57,7 @@ using glm::vec4;
 #define TEXTURE_SHADOW 1
 #define TEXTURE_PLATE 2
 #define TEXTURE_GLARE 3
+#define TEXTURE_REFLECTION 4
 #define TEXTURE_BLOOM 3
 #define TEXTURE_STREAKS 4
 #define TEXTURE_SOURCE 0

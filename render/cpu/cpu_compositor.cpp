@@ -8,12 +8,12 @@
 #include "catchlight/error.hpp"
 #include "render/cpu/cpu_object.hpp"
 #include "render/cpu/glare/make_cpu_glare.hpp"
-#include "render/cpu/object_layers.hpp"
 #include "render/cpu/pass_stopwatch.hpp"
 #include "render/cpu/plate/layer_blur.hpp"
 #include "render/cpu/plate/plate_composite.hpp"
 #include "render/cpu/receiver/receiver_image.hpp"
 #include "render/cpu/tone/cpu_tone.hpp"
+#include "render/object_layers.hpp"
 #include "render/scene_check.hpp"
 #include "render/split_light.hpp"
 
@@ -105,16 +105,17 @@ void CpuCompositor::Impl::read_plate(const FrameView& view, const PlateReader& r
 void CpuCompositor::Impl::make_images(const FrameView& view, const FramePlan& plan) {
   images.covered = object.covered(view, plan);
   images.rect = intersect(grown(images.covered, plan.blur.reach_px(images.covered)), plan.virtual_rect);
-  const auto clear = [&](Image& image, int channels, bool is_wanted) {
-    image.width = images.rect.width, image.height = images.rect.height, image.channels = channels;
-    image.data.assign(is_wanted ? static_cast<std::size_t>(image.width) * image.height * channels : 0, 0.0f);
+  const auto clear = [&](Image& image, bool is_wanted) {
+    image.width = images.rect.width, image.height = images.rect.height, image.channels = 4;
+    image.data.assign(is_wanted ? static_cast<std::size_t>(image.width) * image.height * 4 : 0, 0.0f);
   };
-  clear(images.color, 4, true);
-  clear(images.reflection, 3, plan.makes_layers);
-  clear(images.normal_depth, 5, plan.makes_layers);
-  clear(images.emission, 3, divides_glare());
+  clear(images.color, true);
+  clear(images.reflection, plan.makes_layers);
+  clear(images.normal_depth, plan.makes_layers);
+  clear(images.emission, divides_glare());
 }
 
+/// All that is light is blurred as the object is. Normals and depth are too, but kept sharp where the sharp object is.
 void CpuCompositor::Impl::blur(const FramePlan& plan) {
   const auto blur_one = [&](Image& image, const PixelRect& rect, std::span<const PixelRect> active, const MotionField& motion,
                             double invisible) {
@@ -133,7 +134,8 @@ void CpuCompositor::Impl::blur(const FramePlan& plan) {
   // Highlights are far brighter than what lies around them; a shadow's ratio never is.
   PixelRect covered = images.covered;
   covered.x -= images.rect.x, covered.y -= images.rect.y;
-  if (!covered.empty()) blur_one(images.color, images.rect, {&covered, 1}, plan.blur.object, 1e-5);
+  for (Image* image : {&images.color, &images.reflection, &images.normal_depth, &images.emission})
+    if (!covered.empty() && !image->data.empty()) blur_one(*image, images.rect, {&covered, 1}, plan.blur.object, 1e-5);
   blur_one(shadow.pixels(), shadow.rect(), shadow.sharp(), plan.blur.shadow, 2e-3);
 }
 
@@ -151,7 +153,11 @@ void CpuCompositor::Impl::draw_virtual_layer(const FrameView& view, const FrameP
     else
       shadow.clear();
   });
-  if (!plan.blur.empty()) clock.pass("lens blur", [&] { blur(plan); });
+  if (result.layers) add_geometry(images.color, images.normal_depth, images.rect, *result.layers);
+  if (!plan.blur.empty()) {
+    clock.pass("lens blur", [&] { blur(plan); });
+    if (result.layers) add_geometry(images.color, images.normal_depth, images.rect, *result.layers);
+  }
   if (plan.seeks_glare && glare)
     clock.pass("highlights", [&] {
       const Image* emission = divides_glare() ? &images.emission : nullptr;
@@ -163,7 +169,8 @@ void CpuCompositor::Impl::draw_composite(const FrameView& view, const FramePlan&
                                          Composite& result) {
   VirtualImages images_in_frame;
   if (plan.draws_virtual()) {
-    images_in_frame.object = &images.color, images_in_frame.object_rect = images.rect;
+    images_in_frame.object = &images.color, images_in_frame.reflection = &images.reflection;
+    images_in_frame.object_rect = images.rect;
     images_in_frame.shadow = [&](int x, int y, int count, const std::array<float*, 3>& ratio) {
       return shadow.read_row(x, y, count, ratio);
     };
@@ -172,7 +179,6 @@ void CpuCompositor::Impl::draw_composite(const FrameView& view, const FramePlan&
   if (result.glare_drawn)
     images_in_frame.glare = [this](int x, int y, int count, float* rgb) { glare->read_row(x, y, count, rgb); };
   const Plate& whole = plan.mirrors_receiver ? plate_light.plate() : plate;
-  if (plan.makes_layers) result.layers = empty_layers(plan.frame);
   const bool is_whole = plan.is_toned || plan.makes_layers || !take;
   composite_plate(view, whole, response, images_in_frame, plan.is_toned, is_whole ? CompositeSink{} : take, result);
 }
@@ -199,6 +205,7 @@ Composite CpuCompositor::Impl::render(const FrameView& view, const PlateReader& 
   const FramePlan plan = plan_frame(view, needs(), want_layers);
   Composite result;
   if (plan.empty()) return result;
+  if (plan.makes_layers) result.layers = empty_layers(plan.frame);
   if (plan.mirrors_receiver) {
     clock.pass("plate", [&] { read_plate(view, reader, plan.frame); });
     clock.pass("plate light", [&] { plate_light.set(std::move(plate), view, response); });
@@ -210,7 +217,6 @@ Composite CpuCompositor::Impl::render(const FrameView& view, const PlateReader& 
   if (result.rect.empty()) return result;
   if (!plan.mirrors_receiver) clock.pass("plate", [&] { read_plate(view, reader, result.rect); });
   clock.pass("composite", [&] { draw_composite(view, plan, take, result); });
-  if (plan.makes_layers) put_object_layers(images, *result.layers);
   if (plan.is_toned) apply_tone(view, plan, want_picture, result);
   result.plate = std::make_shared<const Plate>(plan.mirrors_receiver ? plate_light.take_plate() : std::move(plate));
   return result;

@@ -111,7 +111,6 @@ void CpuObject::put(const FrameView& view, const VisibleSurface& surface, std::s
       add(images.reflection.pixel(x, y), exposed(view, shaded.reflected), point.coverage);
       add(images.normal_depth.pixel(x, y), camera_from_tag * point.normal, point.coverage);
       images.normal_depth.pixel(x, y)[3] += point.coverage * point.depth_m;
-      images.normal_depth.pixel(x, y)[4] += point.coverage;
     }
   });
 }

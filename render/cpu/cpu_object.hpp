@@ -21,9 +21,9 @@ struct ObjectImages {
   PixelRect rect;      ///< the frame's pixels that the images are
   PixelRect covered;   ///< the box around those of them that the object covers
   Image color;         ///< RGBA
-  Image reflection;    ///< RGB, the mirrored part of it; only with layers
-  Image normal_depth;  ///< camera frame, metres along z, coverage; only with layers
-  Image emission;      ///< RGB, what the materials emit; only where it glares otherwise than the rest
+  Image reflection;    ///< the mirrored part of it, of four channels as all that is blurred; only with layers
+  Image normal_depth;  ///< camera frame, metres along z; only with layers
+  Image emission;      ///< what the materials emit, of four channels; only where it glares otherwise than the rest
 };
 
 class CpuObject {

@@ -11,6 +11,8 @@ namespace catchlight::render {
 /// Multisampled object colour with depth, and what they resolve to.
 class ObjectTarget {
  public:
+  static constexpr int kLayers = 4;
+
   /// `with_layers` adds reflection, and normal with depth; `with_emission` the light that the object emits.
   ObjectTarget(int width, int height, int samples, bool with_layers, bool with_emission);
 
@@ -18,7 +20,6 @@ class ObjectTarget {
     return width <= width_ && height <= height_ && (with_layers_ || !with_layers);
   }
   GLuint framebuffer() const { return multisampled_.id(); }
-  bool with_layers() const { return with_layers_; }
 
   /// Averages the samples of the first width x height pixels.
   void resolve(int width, int height) const;
@@ -33,7 +34,6 @@ class ObjectTarget {
   const GlTexture& emission() const { return resolved_textures_[3]; }
 
  private:
-  static constexpr int kLayers = 4;
   bool has(int layer) const { return layer == 0 || (layer == 3 ? with_emission_ : with_layers_); }
 
   int width_, height_;

@@ -1,5 +1,6 @@
 #include "render/passes/camera_blur_pass.hpp"
 
+#include "render/gl/read_back.hpp"
 #include "shaders/interface.h"
 
 namespace catchlight::render {
@@ -7,20 +8,19 @@ namespace catchlight::render {
 CameraBlur::CameraBlur(ShaderLibrary& shaders)
     : gaussian_(shaders.program(fullscreen("defocus.frag"))), motion_(shaders.program(fullscreen("motion_blur.frag"))) {}
 
-void CameraBlur::apply(const CameraBlurPlan& plan, const GlTexture& object_sharp, const GlTexture& shadow_sharp,
-                       const PixelRect& rect) {
+const GlTexture& CameraBlur::apply(const CameraBlurPlan& plan, const MotionField& motion, const GlTexture& sharp,
+                                   const PixelRect& rect) {
   const int width = roomy(rect.width), height = roomy(rect.height);
   for (auto& target : targets_)
     if (!target || !target->fits(width, height))
-      target = std::make_unique<ColorTarget<2>>("lens blur", GL_RGBA32F, width, height);
+      target = std::make_unique<ColorTarget<1>>("lens blur", GL_RGBA32F, width, height);
   const glm::ivec2 size(rect.width, rect.height);
-  const GlTexture *from_object = &object_sharp, *from_shadow = &shadow_sharp;
+  const GlTexture* from = &sharp;
   const auto draw = [&](const Program& program) {
     latest_ = 1 - latest_;
-    glBindTextureUnit(TEXTURE_OBJECT, from_object->id());
-    glBindTextureUnit(TEXTURE_SHADOW, from_shadow->id());
+    glBindTextureUnit(TEXTURE_SOURCE, from->id());
     draw_.over({0, 0, size.x, size.y}, targets_[latest_]->framebuffer(), program);
-    from_object = &object(), from_shadow = &shadow();
+    from = &targets_[latest_]->texture();
   };
   if (plan.variance_px2 > 0) {
     const std::vector<float> weights = discrete_gaussian(plan.variance_px2);
@@ -33,14 +33,16 @@ void CameraBlur::apply(const CameraBlurPlan& plan, const GlTexture& object_sharp
     }
   }
   if (plan.moves) {
-    const glm::dvec2 corner(rect.x, rect.y);
     motion_.set("size", size);
-    motion_.set("object_motion_px", glm::vec2(plan.object.at(corner)));
-    motion_.set("object_change", glm::mat2(plan.object.change));
-    motion_.set("shadow_motion_px", glm::vec2(plan.shadow.at(corner)));
-    motion_.set("shadow_change", glm::mat2(plan.shadow.change));
+    motion_.set("motion_px", glm::vec2(motion.at(glm::dvec2(rect.x, rect.y))));
+    motion_.set("change", glm::mat2(motion.change));
     draw(motion_);
   }
+  return *from;
+}
+
+Image CameraBlur::read(int width, int height) const {
+  return read_back(targets_[latest_]->framebuffer(), 0, width, height, 4);
 }
 
 }  // namespace catchlight::render

@@ -1,8 +1,9 @@
-// Draws the blur of the virtual layer: of the object, premultiplied, and of the shadow's ratio.
+// Draws the blur of a texture of the virtual layer.
 #pragma once
 
 #include <memory>
 
+#include "catchlight/image.hpp"
 #include "catchlight/pixel_rect.hpp"
 #include "render/camera/camera_blur.hpp"
 #include "render/gl/fullscreen.hpp"
@@ -15,16 +16,17 @@ class CameraBlur {
  public:
   explicit CameraBlur(ShaderLibrary& shaders);
 
-  /// Blurs textures that hold the frame's pixels of `rect`. Beyond it, its outermost pixels go on.
-  void apply(const CameraBlurPlan& plan, const GlTexture& object, const GlTexture& shadow, const PixelRect& rect);
+  /// Blurs a texture that holds the frame's pixels of `rect`, by the plan's defocus and by `motion` where the plan moves. Beyond
+  /// the rectangle, its outermost pixels go on. The result stays until the next call.
+  const GlTexture& apply(const CameraBlurPlan& plan, const MotionField& motion, const GlTexture& sharp, const PixelRect& rect);
 
-  const GlTexture& object() const { return targets_[latest_]->texture(0); }
-  const GlTexture& shadow() const { return targets_[latest_]->texture(1); }
+  /// The first width x height pixels of the last result, RGBA.
+  Image read(int width, int height) const;
 
  private:
   Program &gaussian_, &motion_;
   FullscreenDraw draw_;
-  std::unique_ptr<ColorTarget<2>> targets_[2];  ///< drawn to in turn
+  std::unique_ptr<ColorTarget<1>> targets_[2];  ///< drawn to in turn
   int latest_ = 0;
 };
 

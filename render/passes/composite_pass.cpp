@@ -158,6 +158,7 @@ void CompositePass::draw(const FrameView& view, const PixelRect& rect, const Vir
   glBindTextureUnit(TEXTURE_PLATE, plate_.id());
   const GlTexture& glare = layer.pixel_glare ? *layer.pixel_glare : layer.glare ? layer.glare->glare() : black_;
   glBindTextureUnit(TEXTURE_GLARE, glare.id());
+  glBindTextureUnit(TEXTURE_REFLECTION, (layer.reflection ? *layer.reflection : black_).id());
   draw_.over({0, 0, rect_.width, rect_.height}, drawn_framebuffer_, program_);
 }
 
@@ -166,10 +167,11 @@ RawVector<float> CompositePass::read() const {
 }
 
 void CompositePass::read_layers(Layers& layers) const {
-  layers.plate = read_back(layers_->framebuffer(), 1, rect_.width, rect_.height, 3);
-  layers.object = read_back(layers_->framebuffer(), 2, rect_.width, rect_.height, 4);
-  layers.shadow = read_back(layers_->framebuffer(), 3, rect_.width, rect_.height, 3);
-  layers.glare = read_back(layers_->framebuffer(), 4, rect_.width, rect_.height, 3);
+  const auto read = [&](int output, int channels) {
+    return read_back(layers_->framebuffer(), output, rect_.width, rect_.height, channels);
+  };
+  layers.plate = read(1, 3), layers.object = read(2, 4), layers.shadow = read(3, 3);
+  layers.glare = read(4, 3), layers.reflection = read(5, 3);
 }
 
 }  // namespace catchlight::render

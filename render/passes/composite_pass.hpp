@@ -22,6 +22,7 @@ struct VirtualLayer {
   const GlTexture* object;
   const GlTexture* shadow;
   const GlarePass* glare;                  ///< null: none drawn
+  const GlTexture* reflection = nullptr;   ///< the mirrored part of the object; only with layers
   const GlTexture* pixel_glare = nullptr;  ///< stands for it where not null: glare of every pixel of the frame
   double passed_at_tag = 0;  ///< share of light that vignetting leaves at the tag, where exposure is matched; 0: unknown
 };
@@ -47,11 +48,11 @@ class CompositePass {
   /// The last draw's codes and change flags, RGBA.
   RawVector<float> read() const;
 
-  /// Plate, object, shadow and glare of the last draw with layers.
+  /// Plate, object, shadow, glare and reflection of the last draw with layers.
   void read_layers(Layers& layers) const;
 
  private:
-  static constexpr int kOutputs = 5;
+  static constexpr int kOutputs = 6;
 
   void upload_curve(const std::shared_ptr<const ResponseCurve>& curve);
   void update_uniforms(const FrameView& view, const VirtualLayer& layer, bool as_light);

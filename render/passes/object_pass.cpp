@@ -141,7 +141,7 @@ void ObjectPass::draw(const ObjectTarget& target, const PixelRect& rect, int fra
   reset_state();
   glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
   set_viewport(rect, frame_width, frame_height);
-  for (int i = 0; i < (target.with_layers() ? 3 : 1); ++i) glClearNamedFramebufferfv(target.framebuffer(), GL_COLOR, i, no_color);
+  for (int i = 0; i < ObjectTarget::kLayers; ++i) glClearNamedFramebufferfv(target.framebuffer(), GL_COLOR, i, no_color);
   glDepthMask(GL_TRUE);
   glClearNamedFramebufferfv(target.framebuffer(), GL_DEPTH, 0, &farthest);
 

@@ -105,6 +105,9 @@ class PlateComposite {
       block.coverage[i] = pixel[3];
       const float passed = has_vignetting_ && pixel[3] > 0 ? passed_at({x, block.y}) : 1;
       for (std::size_t c = 0; c < 3; ++c) block.object[c][i] = pixel[c] * passed;
+      if (!result_.layers) continue;
+      const float* mirrored = virtual_.reflection->pixel(x - virtual_.object_rect.x, block.y - virtual_.object_rect.y);
+      for (std::size_t c = 0; c < 3; ++c) result_.layers->reflection.pixel(x, block.y)[c] = mirrored[c] * passed;
     }
     return true;
   }

@@ -20,7 +20,8 @@ using ShadowRow = std::function<bool(int x, int y, int count, const std::array<f
 
 /// What is put into the plate.
 struct VirtualImages {
-  const Image* object = nullptr;  ///< RGBA, premultiplied exposed linear: the frame's pixels of `object_rect`; null: none
+  const Image* object = nullptr;      ///< RGBA, premultiplied exposed linear: the frame's pixels of `object_rect`; null: none
+  const Image* reflection = nullptr;  ///< the mirrored part of it, in the same way; read only for layers
   PixelRect object_rect;
   ShadowRow shadow = {};     ///< empty: none
   GlareRow glare = {};       ///< empty: none drawn

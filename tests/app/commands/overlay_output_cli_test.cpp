@@ -56,6 +56,22 @@ TEST_F(OverlayCommand, ExrLayersRecomposeToTheComposite) {
   }
 }
 
+TEST_F(OverlayCommand, EveryLayerOfABlurredFrameIsBlurredAsTheObject) {
+  const std::string copy = copied_recording(2, "dazzle");
+  const std::vector<std::string> blur = {"--lens.motion_blur", "true", "--lens.shutter", "1", "--lens.defocus", "true"};
+  ASSERT_EQ(overlay(copy, folder_.path("layers.%04d.exr"), blur).exit_code, 0);
+  const LayersFile file = read_layers(folder_.path("layers.0001.exr"));
+  expect_recomposed(file);
+  expect_depth_where_an_object_is(file);
+  int partly = 0;
+  for (std::size_t i = 0; i < file.matte.data.size(); ++i) {
+    partly += file.matte.data[i] > 0 && file.matte.data[i] < 1;
+    for (std::size_t c = 0; c < 3; ++c)  // what is mirrored is a part of the object's light; both are rounded to halves
+      ASSERT_LE(file.layers.reflection.data[3 * i + c], 1.001f * file.layers.object.data[4 * i + c] + 1e-5f) << i;
+  }
+  EXPECT_GT(partly, 1500) << "the outline is blurred over some pixels";
+}
+
 TEST_F(OverlayCommand, ExistingOutputsAreKeptWithoutY) {
   const std::string copy = copied_recording(1);
   std::ofstream(out_) << "precious";

@@ -1,4 +1,4 @@
-// The shadow on the receiving plane, and the layers a compositing package recombines.
+// The shadow on the receiving plane.
 #include <cmath>
 
 #include "catchlight/composite.hpp"
@@ -145,75 +145,6 @@ TYPED_TEST(ReceiverGl, TheObjectHidesTheShadow) {
   add_receiver(scene.transfer, {.min_m = {-0.1f, -0.1f}, .max_m = {0.1f, 0.1f}, .columns = 21, .rows = 21},
                [](double, double) { return 0.0; });
   EXPECT_NEAR(pixel_at(TypeParam(scene, {}).render(linear_view_from_above(), linear_grey_plate()), 80, 60).x, 0.7, 1e-3);
-}
-
-/// A glossy ball over a shadow, in a light that makes it glare.
-RenderScene full_scene() {
-  Material gloss;
-  gloss.base_color = {0.8f, 0.4f, 0.2f};
-  gloss.roughness = 0.1f;
-  RenderScene scene = constant_scene(sphere(0.04, {0, 0, 0.05}), gloss, glm::vec3(1));
-  scene.reflections = reflections_of([](const glm::dvec3& d) { return glm::vec3(d.z > 0.95 ? 200.0f : 0.5f); }, 32, 3);
-  add_receiver(scene.transfer, {.min_m = {-0.1f, -0.1f}, .max_m = {0.1f, 0.1f}, .columns = 41, .rows = 41},
-               [](double x, double y) { return 1 - 0.7 * std::exp(-(x * x + y * y) / 0.002); });
-  return scene;
-}
-
-TYPED_TEST(ReceiverGl, LayersRecombineToThePicture) {
-  TypeParam compositor(full_scene(), {});
-  FrameView view = linear_view_from_above();
-  view.black = glm::vec3(0.02f);
-  const PlateReader plate =
-      plate_f32([](int x, int y) { return glm::vec3(0.01f * static_cast<float>(x), 0.005f * static_cast<float>(y), 0.3f); });
-  const Composite composite = compositor.render(view, plate, true);
-  ASSERT_TRUE(composite.layers);
-  EXPECT_TRUE(composite.glare_drawn);
-  EXPECT_EQ(composite.rect, (PixelRect{0, 0, 160, 120}));
-  const Image recomposed = recompose(*composite.layers);
-  for (int y = 0; y < 120; ++y) {
-    for (int x = 0; x < 160; ++x) {
-      for (int c = 0; c < 3; ++c) {
-        const double sum = recomposed.pixel(x, y)[c];
-        ASSERT_NEAR(pixel_at(composite, x, y)[c], sum, 1e-5 * (1 + sum)) << x << ", " << y;
-      }
-    }
-  }
-}
-
-TYPED_TEST(ReceiverGl, LayersHoldGeometry) {
-  TypeParam compositor(full_scene(), {});
-  const Layers layers = *compositor.render(linear_view_from_above(), linear_grey_plate(), true).layers;
-  // Straight above the ball: its top is 0.5 - 0.09 m away and faces the camera (-z in the camera frame).
-  EXPECT_NEAR(*layers.depth.pixel(80, 60), 0.41, 1e-3);
-  EXPECT_NEAR(layers.normal.pixel(80, 60)[2], -1.0, 1e-3);
-  EXPECT_GT(layers.normal.pixel(90, 60)[0], 0.3) << "camera x is picture right";
-  EXPECT_EQ(layers.object.pixel(80, 60)[3], 1.0f);
-  EXPECT_GT(layers.reflection.pixel(80, 60)[0], 1.0f);
-  EXPECT_EQ(*layers.depth.pixel(0, 0), std::numeric_limits<float>::infinity()) << "nothing is there";
-  EXPECT_EQ(layers.object.pixel(0, 0)[3], 0.0f);
-  EXPECT_EQ(layers.shadow.pixel(0, 0)[0], 1.0f);
-}
-
-TYPED_TEST(ReceiverGl, LayersWithNothingInSightAreThePlate) {
-  TypeParam compositor(full_scene(), {});
-  FrameView view = linear_view_from_above();
-  view.camera_from_tag.translation_m.z = -1;
-  const Composite composite = compositor.render(view, linear_grey_plate(), true);
-  ASSERT_TRUE(composite.layers);
-  EXPECT_NEAR(composite.layers->plate.pixel(3, 4)[1], 0.5f, 1e-6);
-  EXPECT_EQ(composite.layers->object.pixel(80, 60)[3], 0.0f);
-  EXPECT_EQ(*composite.layers->depth.pixel(80, 60), std::numeric_limits<float>::infinity());
-  for (std::size_t i = 3; i < composite.rgba.size(); i += 4) ASSERT_EQ(composite.rgba[i], 0.0f);
-}
-
-TYPED_TEST(ReceiverGl, LayersChangeNoPixelOfThePicture) {
-  TypeParam compositor(full_scene(), {});
-  const Composite with = compositor.render(linear_view_from_above(), linear_grey_plate(), true),
-                  without = compositor.render(linear_view_from_above(), linear_grey_plate());
-  for (int y = without.rect.y; y < without.rect.y + without.rect.height; ++y) {
-    for (int x = without.rect.x; x < without.rect.x + without.rect.width; ++x)
-      ASSERT_EQ(pixel_at(with, x, y), pixel_at(without, x, y));
-  }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
-#include "render/cpu/object_layers.hpp"
+#include "render/object_layers.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/glm.hpp>
 #include <limits>
 
@@ -13,17 +14,16 @@ Layers empty_layers(const PixelRect& frame) {
   return layers;
 }
 
-void put_object_layers(const ObjectImages& images, Layers& layers) {
-  const PixelRect& rect = images.rect;
+void add_geometry(const Image& color, const Image& normal_depth, const PixelRect& rect, Layers& layers) {
   for (int y = 0; y < rect.height; ++y) {
     for (int x = 0; x < rect.width; ++x) {
-      const float* nz = images.normal_depth.pixel(x, y);
-      const glm::vec3 normal(nz[0], nz[1], nz[2]);
-      if (normal == glm::vec3(0)) continue;
-      const glm::vec3 unit = normal / std::max(glm::length(normal), 1e-12f);
-      std::copy_n(images.reflection.pixel(x, y), 3, layers.reflection.pixel(rect.x + x, rect.y + y));
+      const float coverage = color.pixel(x, y)[3];
+      float& depth = *layers.depth.pixel(rect.x + x, rect.y + y);
+      if (coverage < kMinCoverage || std::isfinite(depth)) continue;
+      const float* nz = normal_depth.pixel(x, y);
+      const glm::vec3 normal(nz[0], nz[1], nz[2]), unit = normal / std::max(glm::length(normal), 1e-30f);
       std::copy_n(&unit.x, 3, layers.normal.pixel(rect.x + x, rect.y + y));
-      *layers.depth.pixel(rect.x + x, rect.y + y) = nz[3] / nz[4];
+      depth = nz[3] / coverage;
     }
   }
 }
