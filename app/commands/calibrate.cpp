@@ -4,6 +4,7 @@
 #include <opencv2/core.hpp>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/help.hpp"
 #include "app/support/output_file.hpp"
 #include "app/tools/calibration/collect.hpp"
 #include "app/tools/calibration/report.hpp"
@@ -77,13 +78,13 @@ CollectedViews views_in(const Options& options, CalibrationBoard& board, Log& lo
   CollectedViews views = collect_views(*source, board, range, log);
   if (views.damage) log.warn(*views.damage + "; calibrating with what was read before");
   if (views.frames_with_board == 0)
-    throw Error(options.footage + ": the board was found in none of " + std::to_string(views.frames_tried) +
-                " frames; is it described as it is (" +
+    throw Error(options.footage + ": the board was found in none of " + counted(views.frames_tried, "frame") +
+                "; is it described as it is (" +
                 (options.tags.empty() ? "inner corners, not squares; all of them in the picture, with white around"
                                       : "family, ids, columns and rows; four tags or more in the picture") +
                 "), sharp and evenly lit?");
-  log.info("board seen in " + std::to_string(views.frames_with_board) + " of " + std::to_string(views.frames_tried) +
-           " frames tried, of " + std::to_string(views.frames_read));
+  log.info("board seen in " + std::to_string(views.frames_with_board) + " of " + counted(views.frames_tried, "frame") +
+           " tried, of " + std::to_string(views.frames_read));
   if (!views.blurred.empty()) log.info("left out as blurred: frame " + numbers_text(views.blurred));
   return views;
 }
@@ -151,6 +152,8 @@ void set_up_calibrate(CLI::App& command, Context& context) {
                      "only frames A:B, numbered from 0 (image sequences: by their own numbers), B left out");
   command.add_option("--picture", options->picture, "draw where the board was and how far off each corner is, PNG");
   command.add_flag("-y,--overwrite", options->overwrite, "replace existing outputs");
+  show_examples(command, {"catchlight calibrate board.mp4 --checkerboard 9x6 --square-m 0.025 -o camera.yaml",
+                          "catchlight calibrate board.mp4 --tags 4x3 --size-m 0.04 --spacing-m 0.05 -o camera.yaml"});
   command.callback([=, &context] {
     calibrate(*options, {square->count() > 0, size->count() > 0, spacing->count() > 0}, context.log);
   });

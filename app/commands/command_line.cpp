@@ -1,9 +1,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <set>
 #include <vector>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/help.hpp"
 #include "app/settings/parameters.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/util/enum_names.hpp"
@@ -16,8 +18,8 @@ constexpr const char* kDescription =
     "Puts synthetic objects into real footage: tracks AprilTags, lights the object with a light probe of the place,\n"
     "and composites it at the camera's own exposure.";
 constexpr const char* kFooter =
-    "`catchlight COMMAND --help` explains a command; `catchlight params` lists what a scene file can say.\n"
-    "-q anywhere silences all but errors.";
+    "`catchlight help COMMAND` explains a command; `catchlight params` lists what a scene file can say.\n"
+    "-q (quiet) and -v (verbose) may stand anywhere.";
 constexpr const char* kBoth = "both";  ///< a choice of --renderer
 
 enum ExitCode { kSuccess = 0, kFailure = 1, kUsage = 2 };
@@ -29,7 +31,7 @@ const CLI::App& active_command(const CLI::App& app) {
 }
 
 std::vector<std::string> option_names(const CLI::App& command) {
-  std::vector<std::string> names{"--quiet"};
+  std::vector<std::string> names{"--quiet", "--verbose"};
   for (const CLI::Option* option : command.get_options())
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   return names;
@@ -41,13 +43,32 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
+/// "catchlight probe convert" for the command that the arguments reached.
+std::string words_of(const CLI::App& command) {
+  const CLI::App* parent = command.get_parent();
+  return parent ? words_of(*parent) + ' ' + command.get_name() : command.get_name();
+}
+
+/// The commands that take an option of that name, "`catchlight overlay`, `catchlight replay`"; empty where none does.
+std::string commands_with(const CLI::App& app, const std::string& option) {
+  std::string commands;
+  const auto add = [&](const std::string& found) { commands += (commands.empty() || found.empty() ? "" : ", ") + found; };
+  if (app.get_parent() && app.get_option_no_throw(option)) add('`' + words_of(app) + '`');
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) add(commands_with(*command, option));
+  return commands;
+}
+
 /// What stands where nothing was expected: a mistyped option, a mistyped command, or one argument too many. There is one.
 std::string unexpected_argument(const CLI::App& app) {
   const CLI::App& command = active_command(app);
   const std::vector<std::string> extras = app.remaining(true);
   const std::string& argument = extras.front();
   const std::string name = argument.substr(0, argument.find('='));
-  if (name.starts_with("--")) return "unknown option " + name + "; did you mean " + nearest(name, option_names(command)) + "?";
+  if (name.starts_with("--")) {
+    const std::string elsewhere = commands_with(app, name);
+    if (!elsewhere.empty()) return '`' + words_of(command) + "` has no option " + name + "; it is one of " + elsewhere;
+    return "unknown option " + name + "; did you mean " + nearest(name, option_names(command)) + "?";
+  }
   const std::vector<std::string> subcommands = command_names(command);
   if (!name.starts_with("-") && !subcommands.empty())
     return "unknown command '" + name + "'; did you mean '" + nearest(name, subcommands) + "'?";
@@ -66,22 +87,29 @@ std::set<std::string> numbered_keys(const std::vector<std::string>& arguments) {
   return keys;
 }
 
+/// Whether only the name of a command is missing, so that help is what is wanted.
+bool lacks_command(const CLI::App& app, const CLI::ParseError& error) {
+  return error.get_name() == "RequiredError" && app.remaining(true).empty() && !command_names(active_command(app)).empty();
+}
+
 int report_parse_error(const CLI::App& app, const CLI::ParseError& error, Log& log) {
-  if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+  const CLI::App& command = active_command(app);
+  const bool is_command_unknown = !command_names(command).empty() && !app.remaining(true).empty();
+  if (error.get_exit_code() == 0 && !is_command_unknown) return app.exit(error);  // --help, --version
+  if (lacks_command(app, error)) {
+    std::fputs(app.help().c_str(), stderr);
+    return kUsage;
+  }
   // What is left over comes first: a mistyped command or option is often why something else is missing.
   const std::string message = app.remaining(true).empty() ? std::string(error.what()) : unexpected_argument(app);
-  std::string command = "catchlight";
-  for (const CLI::App* chosen = &app; !chosen->get_subcommands().empty();) {
-    chosen = chosen->get_subcommands().back();
-    command += ' ' + chosen->get_name();
-  }
-  log.error(message + "\n`" + command + " --help` shows what can be given.");
+  log.error(message + "\n`" + words_of(command) + " --help` shows what can be given.");
   return kUsage;
 }
 
 }  // namespace
 
-void add_recording_options(CLI::App& command, const Context& context, std::string& location, RecordingOverrides& overrides) {
+void add_recording_options(CLI::App& command, const Context& context, std::string& location, RecordingOverrides& overrides,
+                           UsesParameter uses) {
   command
       .add_option("RECORDING", location,
                   "Folder with footage, camera.yaml and scene.toml; or a video, a %04d pattern, a camera, a stream")
@@ -90,17 +118,18 @@ void add_recording_options(CLI::App& command, const Context& context, std::strin
   command.add_option("--camera", overrides.camera_file, "Camera file, instead of the recording's camera.yaml")->type_name("FILE");
   command.add_option("--fov", overrides.fov_deg, "Horizontal field of view of a camera that is not calibrated")
       ->type_name("DEGREES");
-  command.add_flag("--strict", overrides.strict,
-                   "Refuse a probe with NaN, infinite or negative texels instead of taking them for 0");
+  CLI::Option* strict = command.add_flag("--strict", overrides.strict,
+                                         "Refuse a probe with NaN, infinite or negative texels instead of taking them for 0");
+  if (!uses("probe.image")) strict->group("");
   const auto add = [&](const std::string& key) {
     const auto note = [&overrides, key](const std::string& text) { overrides.parameters.emplace_back(key, text); };
     return command.add_option_function<std::string>("--" + key, note);
   };
   for (const Parameter& parameter : parameters())
     add(parameter.key)
-        ->description(parameter.help)
+        ->description(parameter_help(parameter))
         ->type_name(parameter.unit.empty() ? "VALUE" : parameter.unit)
-        ->group("Parameters of the scene (before what the scene file says)");
+        ->group(uses(parameter.key) ? "Parameters of the scene (they override the scene file)" : "");
   for (const std::string& key : numbered_keys(context.arguments)) add(key)->group("");
 }
 
@@ -133,12 +162,17 @@ void add_renderer_options(CLI::App& command, RecordingOverrides& overrides, bool
 int run_command_line(std::span<const Command> commands, int argc, const char* const* argv) {
   Context context;
   context.arguments.assign(argv + std::min(argc, 1), argv + argc);
+  context.arguments = with_help_as_option(std::move(context.arguments));
   CLI::App app{kDescription, "catchlight"};
+  app.formatter(std::make_shared<HelpFormatter>());
   app.footer(kFooter);
   app.set_version_flag("--version", "catchlight " CATCHLIGHT_VERSION);
   app.require_subcommand(1);
   app.add_flag_callback(
          "-q,--quiet", [&] { context.log.set_quiet(true); }, "Print nothing but errors")
+      ->trigger_on_parse();
+  app.add_flag_callback(
+         "-v,--verbose", [&] { context.log.set_verbose(true); }, "Print the plan, with its reasons, and the time of each stage")
       ->trigger_on_parse();
   for (const Command& command : commands) {
     CLI::App& subcommand = *app.add_subcommand(command.name, command.help);
@@ -146,7 +180,7 @@ int run_command_line(std::span<const Command> commands, int argc, const char* co
     command.set_up(subcommand, context);
   }
   try {
-    app.parse(argc, argv);
+    app.parse(std::vector(context.arguments.rbegin(), context.arguments.rend()));  // CLI11 takes the last one first
     return context.exit_code;
   } catch (const CLI::ParseError& error) {
     return report_parse_error(app, error, context.log);

@@ -39,9 +39,15 @@ void set_up_replay(CLI::App& command, Context& context);
 void set_up_tag(CLI::App& command, Context& context);
 void set_up_track(CLI::App& command, Context& context);
 
+/// Whether a command makes use of the parameter of that key. All are taken, so that one set of options fits all commands; what
+/// is of no use is left out of the help.
+using UsesParameter = bool (*)(const std::string& key);
+
 /// The positional RECORDING, --scene, --camera, --fov, and one option for every parameter, with a number too where the arguments
 /// give one (`--object[1].mesh`). `location` and `overrides` must live as long as `command`.
-void add_recording_options(CLI::App& command, const Context& context, std::string& location, RecordingOverrides& overrides);
+void add_recording_options(
+    CLI::App& command, const Context& context, std::string& location, RecordingOverrides& overrides,
+    UsesParameter uses = [](const std::string&) { return true; });
 
 /// Adds --renderer and --shader-dir, for commands that draw. `both_draw`, where not null: "both" is a choice too, which sets it.
 void add_renderer_options(CLI::App& command, RecordingOverrides& overrides, bool* both_draw = nullptr);

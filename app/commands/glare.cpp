@@ -5,6 +5,7 @@
 #include <opencv2/core.hpp>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/help.hpp"
 #include "app/support/output_file.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/image.hpp"
@@ -105,6 +106,8 @@ void set_up_glare(CLI::App& command, Context& context) {
       ->check(CLI::Range(0.1, 12.0))
       ->capture_default_str();
   command.add_flag("-y,--overwrite", options->overwrite, "replace an existing output");
+  show_examples(command, {"catchlight glare --aperture blades:6 -o star.png",
+                          "catchlight glare --aperture lashes.png --aperture-mm 1.5 --focal 1400 -o lashes.exr"});
   command.callback([options, &context] { show(*options, context.log); });
 }
 

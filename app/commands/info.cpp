@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/help.hpp"
 #include "catchlight/error.hpp"
 #include "render/cache/content_cache.hpp"
 #include "render/gl/gl_context.hpp"
@@ -83,6 +84,7 @@ void print_graphics() {
 
 void set_up_info(CLI::App& command, Context&) {
   command.footer("What was made for scenes is kept in the cache; XDG_CACHE_HOME names another folder for it.");
+  show_examples(command, {"catchlight info", "catchlight info > report.txt"});
   command.callback([] {
     print("Catchlight", CATCHLIGHT_VERSION);
     print_libraries();

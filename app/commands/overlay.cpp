@@ -3,6 +3,7 @@
 
 #include "app/commands/commands.hpp"
 #include "app/commands/finish_report.hpp"
+#include "app/commands/help.hpp"
 #include "app/media/write/frame_output.hpp"
 #include "app/session/debug_drawing.hpp"
 #include "app/session/run_stages.hpp"
@@ -93,6 +94,8 @@ void set_up_overlay(CLI::App& command, Context& context) {
       ->check(CLI::Range(0, 51))
       ->capture_default_str();
   command.add_option("--preset", options->sink.preset, "H.264 speed, ultrafast to veryslow")->capture_default_str();
+  show_examples(command, {"catchlight overlay recordings/matte -o out.mp4",
+                          "catchlight overlay clip.mp4 --camera camera.yaml --scene scene.toml -o out.%04d.exr --frames 24:48"});
   command.callback([options, &context] { overlay(*options, context); });
 }
 

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/help.hpp"
 #include "app/settings/parameters.hpp"
 
 namespace catchlight::app {
@@ -21,6 +22,7 @@ void print_table() {
 void set_up_params(CLI::App& command, Context&) {
   const auto markdown = std::make_shared<bool>(false);
   command.add_flag("--markdown", *markdown, "As docs/parameters.md");
+  show_examples(command, {"catchlight params", "catchlight params --markdown > parameters.md"});
   command.callback([markdown] { *markdown ? (void)std::fputs(parameters_markdown().c_str(), stdout) : print_table(); });
 }
 

@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
+#include "app/commands/help.hpp"
 #include "app/commands/probe.hpp"
 #include "app/settings/scene_settings.hpp"
 #include "app/support/output_file.hpp"
@@ -241,6 +242,8 @@ void add_split(CLI::App& command, const std::shared_ptr<ProbeArguments>& argumen
   parts.add_option("--lights", arguments->lights, "Writes the lights alone: an OpenEXR file of the probe's layout, in float");
   parts.add_option("--rest", arguments->rest, "Writes what is left; both add up to the probe");
   add_overwrite(parts, *arguments);
+  show_examples(parts,
+                {"catchlight probe split room.exr", "catchlight probe split room.exr --lights lights.exr --rest rest.exr"});
 }
 
 void add_ball(CLI::App& command, const std::shared_ptr<ProbeArguments>& arguments, Context& context) {
@@ -255,6 +258,8 @@ void add_ball(CLI::App& command, const std::shared_ptr<ProbeArguments>& argument
   ball.add_option("--ev", arguments->ev, "Exposure")->check(CLI::Range(-30.0, 30.0))->capture_default_str();
   ball.add_option("--yaw", arguments->yaw_deg, "As probe.yaw_deg of the scene file")->check(CLI::Range(-360.0, 360.0));
   add_overwrite(ball, *arguments);
+  show_examples(ball,
+                {"catchlight probe ball room.exr -o ball.png", "catchlight probe ball room.exr --yaw 40 --ev -2 -o ball.png"});
 }
 
 void add_preview(CLI::App& command, const std::shared_ptr<ProbeArguments>& arguments, Context& context) {
@@ -266,6 +271,8 @@ void add_preview(CLI::App& command, const std::shared_ptr<ProbeArguments>& argum
   preview.add_option("--ev", arguments->ev, "Brighter or darker")->check(CLI::Range(-30.0, 30.0))->capture_default_str();
   preview.add_option("--yaw", arguments->yaw_deg, "As probe.yaw_deg of the scene file")->check(CLI::Range(-360.0, 360.0));
   add_overwrite(preview, *arguments);
+  show_examples(
+      preview, {"catchlight probe preview room.exr -o preview.png", "catchlight probe preview room.exr --yaw 40 -o preview.png"});
 }
 
 }  // namespace
@@ -277,6 +284,7 @@ void set_up_probe(CLI::App& command, Context& context) {
 
   CLI::App& info = add_probe_command(command, "info", "Size, range, where the light comes from", arguments, print_info, context);
   add_bands(info, arguments->bands);
+  show_examples(info, {"catchlight probe info room.exr", "catchlight probe info ball.hdr --layout-in mirror-ball"});
 
   add_split(command, arguments, context);
 
@@ -286,14 +294,18 @@ void set_up_probe(CLI::App& command, Context& context) {
   converted.add_option("--width", arguments->width_px, "Width of OUT in texels; 0 keeps the angular resolution")
       ->check(CLI::Range(0, 16384));
   add_overwrite(converted, *arguments);
+  show_examples(converted, {"catchlight probe convert room.exr cross.hdr --layout cube-cross",
+                            "catchlight probe convert ball.hdr room.exr --layout-in angular --layout latlong --width 2048"});
 
   CLI::App& sh = add_probe_command(command, "sh", "Coefficients of spherical harmonics as text", arguments, write_sh, context);
   add_bands(sh, arguments->bands);
   sh.add_option("-o,--output", arguments->output, "Text file; stdout where left out");
   add_overwrite(sh, *arguments);
+  show_examples(sh, {"catchlight probe sh room.exr", "catchlight probe sh room.exr --bands 5 -o room.txt"});
 
   add_ball(command, arguments, context);
   add_preview(command, arguments, context);
+  show_examples(command, {"catchlight probe preview room.exr -o preview.png", "catchlight help probe merge"});
 }
 
 }  // namespace catchlight::app

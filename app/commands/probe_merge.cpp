@@ -2,6 +2,7 @@
 #include <cmath>
 #include <memory>
 
+#include "app/commands/help.hpp"
 #include "app/commands/probe.hpp"
 #include "app/settings/scene_file.hpp"
 #include "app/support/output_file.hpp"
@@ -130,6 +131,8 @@ void add_probe_merge(CLI::App& parent, Context& context) {
       ->check(CLI::Range(1.0, 60.0))
       ->capture_default_str();
   command.add_flag("-y,--overwrite", options->overwrite, "replace an existing output");
+  show_examples(command, {"catchlight probe merge ball-*.jpg --scene scene.toml --camera camera.yaml -o room.exr",
+                          "catchlight probe merge a1.jpg a2.jpg a3.jpg --view b1.jpg b2.jpg b3.jpg --view-yaw 0,90 -o room.exr"});
   command.callback([options, tag_size, &context] { merge(*options, tag_size->count() > 0, context.log); });
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/help.hpp"
 #include "app/session/reference_frame.hpp"
 #include "app/session/session.hpp"
 #include "app/support/output_file.hpp"
@@ -73,16 +74,23 @@ void trace(const Options& options, Context& context) {
   else
     write_reference_png(output, traced, job.image, options.overwrite);
   const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  context.log.info(output + ": frame " + std::to_string(options.frame) + ", " + std::to_string(options.quality.samples) +
-                   " samples a pixel, " + std::to_string(options.quality.bounces) + " bounces, " + fixed_text(elapsed_s, 1) +
-                   " s");
+  context.log.info(output + ": frame " + std::to_string(options.frame) + ", " + counted(options.quality.samples, "sample") +
+                   " a pixel, " + counted(options.quality.bounces, "bounce") + ", " + fixed_text(elapsed_s, 1) + " s");
+}
+
+/// What the tracer finds by itself, and what it leaves out, is none of its parameters.
+bool uses_parameter(const std::string& key) {
+  for (const char* part : {"look", "exposure.key", "exposure.adapt", "glare.", "quality.", "lens.noise", "lens.motion_blur",
+                           "lens.defocus", "lens.shutter", "lens.chroma_subsampling"})
+    if (key.starts_with(part)) return false;
+  return true;
 }
 
 }  // namespace
 
 void set_up_reference(CLI::App& command, Context& context) {
   const auto options = std::make_shared<Options>();
-  add_recording_options(command, context, options->recording, options->overrides);
+  add_recording_options(command, context, options->recording, options->overrides, uses_parameter);
   command.add_option("--frame", options->frame, "the frame, numbered from 0 (image sequences: by its own number)")->required();
   command.add_option("-o,--output", options->output, "picture.png or .exr; left out: reference.NNNN.png")->type_name("FILE");
   command.add_flag("-y,--overwrite", options->overwrite, "replace an existing output");
@@ -93,6 +101,8 @@ void set_up_reference(CLI::App& command, Context& context) {
   command.add_option("--bounces", options->quality.bounces, "reflections after the first")
       ->check(CLI::Range(0, 64))
       ->capture_default_str();
+  show_examples(command, {"catchlight reference recordings/matte --frame 20 -o traced.png",
+                          "catchlight reference recordings/matte --frame 20 --samples 4096 -o traced.exr"});
   command.callback([options, &context] { trace(*options, context); });
 }
 

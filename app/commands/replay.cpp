@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/help.hpp"
 #include "app/support/output_file.hpp"
 #include "app/tools/replay/replay.hpp"
 
@@ -117,6 +118,7 @@ void set_up_replay(CLI::App& command, Context& context) {
   add_renderer_options(command, options->overrides, &options->both_draw);
   command.add_option("-o,--output", options->sheets, "folder for the sheets")->capture_default_str();
   command.add_flag("--bless", options->bless, "write what is measured to each recording's expected.toml");
+  show_examples(command, {"catchlight replay recordings/", "catchlight replay recordings/matte --renderer both -o sheets"});
   command.callback([options, &context] { replay(*options, context); });
 }
 

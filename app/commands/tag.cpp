@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/help.hpp"
 #include "app/support/output_file.hpp"
 #include "app/tools/tag_print/writers.hpp"
 #include "catchlight/error.hpp"
@@ -72,7 +73,7 @@ void write_png(const Options& options, TagGrid& grid, Log& log) {
   const Page page = lay_out(grid, options.paper, 1000.0 / pixels.pixels_per_m);
   write_text_file(options.output, png_bytes(page, pixels.pixels_per_m), options.overwrite);
   const double dpi = std::round(pixels.pixels_per_m * 2.54) / 100;
-  log.info("each cell is " + std::to_string(pixels.pixels_per_cell) + " pixels; print at " + number_text(dpi) + " dpi");
+  log.info("each cell is " + std::to_string(pixels.pixels_per_cell) + " pixels; print at " + plain_text(dpi) + " dpi");
 }
 
 void print_tags(const Options& options, bool has_spacing, Log& log) {
@@ -112,6 +113,8 @@ void set_up_tag(CLI::App& command, Context& context) {
       ->check(CLI::Range(10.0, 4800.0))
       ->capture_default_str();
   command.add_flag("-y,--overwrite", options->overwrite, "replace an existing output");
+  show_examples(command, {"catchlight tag --id 12 --size-m 0.14 -o tag.pdf",
+                          "catchlight tag --board 4x3 --size-m 0.04 --spacing-m 0.05 -o board.pdf"});
   command.callback([options, spacing, &context] { print_tags(*options, spacing->count() > 0, context.log); });
 }
 

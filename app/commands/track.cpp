@@ -3,6 +3,7 @@
 
 #include "app/commands/commands.hpp"
 #include "app/commands/finish_report.hpp"
+#include "app/commands/help.hpp"
 #include "app/session/session.hpp"
 #include "app/support/output_file.hpp"
 #include "app/track_export/track_export.hpp"
@@ -31,11 +32,17 @@ void track(const Options& options, Context& context) {
   finish_report(session, options.report, options.overwrite, context);
 }
 
+/// The tag, how its light is read, and what the track formats tell of the scene.
+bool uses_parameter(const std::string& key) {
+  return key.starts_with("tag.") || key.starts_with("object.") || key == "probe.up" || key == "exposure.mode" ||
+         key == "exposure.response";
+}
+
 }  // namespace
 
 void set_up_track(CLI::App& command, Context& context) {
   const auto options = std::make_shared<Options>();
-  add_recording_options(command, context, options->recording, options->overrides);
+  add_recording_options(command, context, options->recording, options->overrides, uses_parameter);
   command
       .add_option(
           "-o,--output", options->output,
@@ -48,6 +55,8 @@ void set_up_track(CLI::App& command, Context& context) {
       ->type_name("FILE");
   command.add_flag("--causal", options->causal, "track as live footage is: each frame knows only those before it");
   command.add_option("--report", options->report, "write what was done and how long it took, JSON");
+  show_examples(command, {"catchlight track recordings/matte -o track.csv",
+                          "catchlight track clip.mp4 --camera camera.yaml --scene scene.toml -o camera.chan"});
   command.callback([options, &context] { track(*options, context); });
 }
 

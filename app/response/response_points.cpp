@@ -146,7 +146,7 @@ ResponsePoints points_of_csv(const std::string& path, const std::string& text) {
     if (is_heading) continue;
     if (!numbers || numbers->size() != 4) refuse(path, line.number, "expected four numbers, code,red,green,blue");
     if (points.codes.empty() ? numbers->front() != 0 : numbers->front() <= points.codes.back())
-      refuse(path, line.number, "code " + number_text(numbers->front()) + "; expected codes that rise from 0");
+      refuse(path, line.number, "code " + plain_text(numbers->front()) + "; expected codes that rise from 0");
     points.codes.push_back(numbers->front());
     for (std::size_t c = 0; c < 3; ++c) points.light[c].push_back((*numbers)[c + 1]);
   }

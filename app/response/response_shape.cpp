@@ -40,7 +40,7 @@ std::string mend(ResponsePoints& points, std::size_t channel, const std::string&
   const double range = mended.back() - mended.front();
   const Dip dip = compare(light, mended);
   const std::string where = std::string(kChannels[channel]) + " does not rise between codes " +
-                            number_text(points.codes[dip.first]) + " and " + number_text(points.codes[dip.last]);
+                            plain_text(points.codes[dip.first]) + " and " + plain_text(points.codes[dip.last]);
   if (!(range > 0) || dip.depth > kMaxMended * range)
     throw Error(
         path + ": " + where + " (0 to 1), by " + (range > 0 ? fixed_text(100 * dip.depth / range, 1) + " % of white" : "all") +

@@ -19,8 +19,18 @@ double percentile(const std::vector<double>& sorted, double share) {
 
 std::string line_of(const StageTimer::Summary& stage) {
   char text[128];
-  std::snprintf(text, sizeof text, "\n  %-12s %8.2f ms median, %8.2f ms 95th percentile", stage.stage.c_str(), stage.median_ms,
+  std::snprintf(text, sizeof text, "  %-12s %8.2f ms median, %8.2f ms 95th percentile", stage.stage.c_str(), stage.median_ms,
                 stage.p95_ms);
+  return text;
+}
+
+/// With line ends between them.
+std::string joined(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) {
+    if (!text.empty()) text += '\n';
+    text += line;
+  }
   return text;
 }
 
@@ -97,13 +107,24 @@ void write_report(const std::string& path, const Report& report, bool overwrite)
 }
 
 std::string report_summary(const Report& report) {
-  std::string text = std::to_string(report.frames) + " frames, " + std::to_string(report.tracked_frames) + " tracked, " +
+  std::string text = counted(report.frames, "frame") + ", " + std::to_string(report.tracked_frames) + " tracked, " +
                      std::to_string(report.coasting_frames) + " coasting, " + std::to_string(report.lost_frames) + " lost, " +
                      fixed_text(report.fps, 1) + " frames/s";
   if (!report.renderer.empty()) text += " on " + report.renderer;
-  for (const StageTimer::Summary& stage : report.stages.summaries()) text += line_of(stage);
-  for (const PlanEntry& entry : report.plan) text += "\n  " + entry.choice + " = " + entry.value + ": " + entry.reason;
   return text;
+}
+
+std::string report_details(const Report& report) {
+  std::vector<std::string> lines;
+  for (const StageTimer::Summary& stage : report.stages.summaries()) lines.push_back(line_of(stage));
+  if (!report.plan.empty()) lines.push_back(plan_text(report.plan));
+  return joined(lines);
+}
+
+std::string plan_text(const std::vector<PlanEntry>& plan) {
+  std::vector<std::string> lines;
+  for (const PlanEntry& entry : plan) lines.push_back("  " + entry.choice + " = " + entry.value + ": " + entry.reason);
+  return joined(lines);
 }
 
 }  // namespace catchlight::app

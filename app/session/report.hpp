@@ -73,7 +73,13 @@ std::string report_json(const Report& report);
 /// Writes the JSON beside `path` and renames it; throws as write_text_file.
 void write_report(const std::string& path, const Report& report, bool overwrite);
 
-/// The report in a few lines; the last has no line end.
+/// The report in a line: frames, what became of the tag in them, speed. Without a line end.
 std::string report_summary(const Report& report);
+
+/// A line for each stage's time, and one for each choice of the plan; the last has no line end. Empty where there are none.
+std::string report_details(const Report& report);
+
+/// A line for each choice and its reason, as report_details.
+std::string plan_text(const std::vector<PlanEntry>& plan);
 
 }  // namespace catchlight::app

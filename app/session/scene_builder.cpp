@@ -44,7 +44,7 @@ int choose_rays(const SceneSettings& settings, std::size_t vertices, std::vector
     return settings.quality.rays;
   }
   int rays = rays_for_tolerance(settings.quality.tolerance);
-  std::string reason = "for a tolerance of " + number_text(settings.quality.tolerance);
+  std::string reason = "for a tolerance of " + plain_text(settings.quality.tolerance);
   while (rays > kMinRays && vertices * static_cast<std::size_t>(rays) > kMaxRays) {
     rays /= 2;
     reason = std::to_string(vertices) + " vertices";
@@ -139,12 +139,12 @@ PlanEntry shadow_texels_entry(const render::RenderScene& scene) {
   const std::string name = "shadow texels";
   if (scene.transfer.grid.columns < 2) return {name, "none", "receiver.plane is \"none\""};
   const render::Bounds box = render::bounds_of(scene.mesh);
-  const render::OpenPlaneLight open =
-      render::open_plane_light(scene.transfer.receiver_unshadowed, render::split_light(scene));
+  const render::OpenPlaneLight open = render::open_plane_light(scene.transfer.receiver_unshadowed, render::split_light(scene));
   const render::PlaneRect reach = render::shadow_reach(scene.lights, open, box);
   if (reach.empty()) return {name, "none", "no light throws a shadow on the tag's plane that can be seen"};
   const glm::ivec2 size = render::receiver_texels(reach, box).size;
-  return {name, std::to_string(size.x) + "x" + std::to_string(size.y), "192 across the object, as far as its lights' shadows reach"};
+  return {name, std::to_string(size.x) + "x" + std::to_string(size.y),
+          "192 across the object, as far as its lights' shadows reach"};
 }
 
 }  // namespace

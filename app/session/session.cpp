@@ -8,6 +8,7 @@
 #include "app/session/solve_shot.hpp"
 #include "app/settings/change_cost.hpp"
 #include "app/settings/look.hpp"
+#include "catchlight/util/text.hpp"
 #include "tracking/track_file.hpp"
 
 namespace catchlight::app {
@@ -31,7 +32,7 @@ void check_range(const std::string& footage, const FrameRange& range, const Sour
 PlanEntry glare_entry(const SceneSettings& scene, const Report& report) {
   if (!scene.glare.enabled) return {"glare", "off", "glare.enabled is false"};
   const std::string percent = std::to_string(std::lround(100 * report.glare_share)) + " % of the frame";
-  return {"glare", "in " + std::to_string(report.glare_frames) + " of " + std::to_string(report.frames) + " frames",
+  return {"glare", "in " + std::to_string(report.glare_frames) + " of " + counted(report.frames, "frame"),
           report.glare_frames == 0 ? "nothing of the object exceeds the sensor's white"
                                    : "light over the sensor's white; it reached " + percent + " on average"};
 }
@@ -173,11 +174,10 @@ void Session::apply(const SceneSettings& settings) {
 void Session::warn_of_track() {
   if (const auto warning = track_ ? track_->warning() : std::nullopt) log_.warn(*warning);
   const Report& report = pass_.report;
-  const std::string of_frames = " of " + std::to_string(report.frames) + " frames";
+  const std::string of_frames = " of " + counted(report.frames, "frame");
   if (report.frames > 0 && report.lost_frames == report.frames)
-    log_.warn(
-        "the tag was never found in " + std::to_string(report.frames) +
-        " frames, which pass through untouched; check tag.family, tag.id and that the tag is sharp and at least 20 px wide");
+    log_.warn("the tag was never found in " + counted(report.frames, "frame") +
+              ", which pass through untouched; check tag.family, tag.id and that the tag is sharp and at least 20 px wide");
   else if (report.lost_frames > 0)
     log_.warn("no tag in " + std::to_string(report.lost_frames) + of_frames + ", which pass through untouched");
 }

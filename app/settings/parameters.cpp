@@ -15,14 +15,14 @@ struct Overloaded : Visitors... {
 };
 
 std::string text_of(const glm::dvec3& v) {
-  return number_text(v.x) + ',' + number_text(v.y) + ',' + number_text(v.z);
+  return plain_text(v.x) + ',' + plain_text(v.y) + ',' + plain_text(v.z);
 }
 
 /// The text by which a message shows what was given.
 std::string shown(const ParameterValue& value) {
   return std::visit(
       Overloaded{[](bool flag) { return std::string(flag ? "true" : "false"); },
-                 [](std::int64_t number) { return std::to_string(number); }, [](double number) { return number_text(number); },
+                 [](std::int64_t number) { return std::to_string(number); }, [](double number) { return plain_text(number); },
                  [](const std::string& text) { return '"' + text + '"'; },
                  [](const glm::dvec3& v) { return '[' + text_of(v) + ']'; }},
       value);
@@ -143,7 +143,7 @@ void set_parameter(SceneSettings& settings, const Parameter& parameter, const Pa
 
 std::string parameter_text(const SceneSettings& settings, const Parameter& parameter, std::size_t index) {
   if (index >= element_count(settings, parameter)) return parameter_text(defaults(), parameter);
-  return std::visit(Overloaded{[&](const RealKind& kind) { return number_text(kind.access(settings, index)); },
+  return std::visit(Overloaded{[&](const RealKind& kind) { return plain_text(kind.access(settings, index)); },
                                [&](const IntegerKind& kind) { return std::to_string(kind.access(settings, index)); },
                                [&](const FlagKind& kind) { return std::string(kind.access(settings, index) ? "true" : "false"); },
                                [&](const SwitchKind& kind) { return name_of(kind.access(settings, index)); },
@@ -162,24 +162,23 @@ std::string word_or_path(const SceneSettings& settings, const std::string& key) 
 std::string expected_text(const Parameter& parameter) {
   const std::string& unit = parameter.unit;
   return std::visit(
-      Overloaded{[&](const RealKind& kind) { return range_text("a number", number_text(kind.min), number_text(kind.max), unit); },
-                 [&](const IntegerKind& kind) {
-                   return range_text("a whole number", std::to_string(kind.min), std::to_string(kind.max), unit);
-                 },
-                 [](const FlagKind&) { return std::string("true or false"); },
-                 [](const PathKind& kind) {
-                   std::string words;
-                   for (const std::string& word : kind.words) words += '"' + word + "\", ";
-                   return (words.empty() ? "" : words + "or ") + "the name of a file";
-                 },
-                 [](const WordKind& kind) { return quoted_list(kind.choices); },
-                 [](const ChoiceKind& kind) { return quoted_list(kind.choices); },
-                 [](const SwitchKind&) {
-                   return '"' + name_of(Switch::automatic) + "\", " + name_of(Switch::on) + " or " + name_of(Switch::off);
-                 },
-                 [&](const VectorKind& kind) {
-                   return range_text("three numbers", number_text(kind.min), number_text(kind.max), unit);
-                 }},
+      Overloaded{
+          [&](const RealKind& kind) { return range_text("a number", plain_text(kind.min), plain_text(kind.max), unit); },
+          [&](const IntegerKind& kind) {
+            return range_text("a whole number", std::to_string(kind.min), std::to_string(kind.max), unit);
+          },
+          [](const FlagKind&) { return std::string("true or false"); },
+          [](const PathKind& kind) {
+            std::string words;
+            for (const std::string& word : kind.words) words += '"' + word + "\", ";
+            return (words.empty() ? "" : words + "or ") + "the name of a file";
+          },
+          [](const WordKind& kind) { return quoted_list(kind.choices); },
+          [](const ChoiceKind& kind) { return quoted_list(kind.choices); },
+          [](const SwitchKind&) {
+            return '"' + name_of(Switch::automatic) + "\", " + name_of(Switch::on) + " or " + name_of(Switch::off);
+          },
+          [&](const VectorKind& kind) { return range_text("three numbers", plain_text(kind.min), plain_text(kind.max), unit); }},
       parameter.kind);
 }
 

@@ -26,6 +26,10 @@ void Log::info(const std::string& message) {
   if (!quiet_) print("", kNoColor, message);
 }
 
+void Log::detail(const std::string& message) {
+  if (verbose_) info(message);
+}
+
 void Log::warn(const std::string& message) {
   const std::lock_guard lock(mutex_);
   if (warnings_.size() > kMaxWarnings || std::ranges::find(warnings_, message) != warnings_.end()) return;

@@ -16,8 +16,10 @@ class Log {
 
   void set_quiet(bool quiet) { quiet_ = quiet; }
   bool quiet() const { return quiet_; }
+  void set_verbose(bool verbose) { verbose_ = verbose; }
 
-  void info(const std::string& message);  ///< not when quiet
+  void info(const std::string& message);    ///< not when quiet
+  void detail(const std::string& message);  ///< when verbose, and not quiet
 
   /// Kept for the report also when quiet. What was said before is not said again, and at most kMaxWarnings are kept: a camera may
   /// run for days.
@@ -36,7 +38,7 @@ class Log {
   void print(const char* label, const char* color, const std::string& message);
 
   std::mutex mutex_;
-  bool quiet_ = false;
+  bool quiet_ = false, verbose_ = false;
   bool bar_shown_ = false;  ///< the cursor stands behind a progress bar
   std::vector<std::string> warnings_;
 };

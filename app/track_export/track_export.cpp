@@ -51,7 +51,7 @@ std::string beyond_pinhole(const CameraModel& camera) {
   std::string text = camera.has_distortion() ? "the lens distortion" : "";
   if (std::max(std::abs(x_px), std::abs(y_px)) > 0.5) {
     const auto away = [](double px, const char* positive, const char* negative) {
-      return number_text(std::abs(std::round(px * 100) / 100)) + " px " + (px < 0 ? negative : positive);
+      return plain_text(std::abs(std::round(px * 100) / 100)) + " px " + (px < 0 ? negative : positive);
     };
     text += (text.empty() ? "" : " and ") + std::string("the principal point, which lies ") + away(x_px, "right of", "left of") +
             " and " + away(y_px, "below", "above") + " the middle";

@@ -25,6 +25,12 @@ std::string number_text(double value) {
   return {buffer.data(), result.ptr};
 }
 
+std::string plain_text(double value) {
+  std::array<char, 512> buffer;  // DBL_MAX has 309 digits
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed);
+  return {buffer.data(), result.ptr};
+}
+
 std::string fixed_text(double value, int digits) {
   std::array<char, 512> buffer;  // DBL_MAX has 309 digits
   const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed, digits);

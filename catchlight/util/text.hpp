@@ -1,6 +1,7 @@
 // Small things with text that several parsers and messages share.
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -12,6 +13,9 @@ namespace catchlight {
 /// The shortest text that reads back to the same bits.
 std::string number_text(double value);
 
+/// The same number for people: never an exponent.
+std::string plain_text(double value);
+
 /// The number with that many digits after the point, never an exponent.
 std::string fixed_text(double value, int digits);
 
@@ -21,6 +25,12 @@ std::optional<std::int64_t> integer_from_text(std::string_view text);
 
 /// "a,b,,c" gives four fields; the empty text gives one.
 std::vector<std::string> split(std::string_view text, char separator);
+
+/// "1 frame", "12 frames", "0 frames"; `several` where more is to be done than to add an s.
+template <std::integral Count>
+std::string counted(Count count, const std::string& one, const std::string& several = {}) {
+  return std::to_string(count) + ' ' + (count == 1 ? one : several.empty() ? one + 's' : several);
+}
 
 /// `"a", "b" or "c"`.
 std::string quoted_list(const std::vector<std::string>& words);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "catchlight/util/text.hpp"
 #include "render/mesh/mesh_import.hpp"
 
 namespace catchlight::render {
@@ -44,7 +45,8 @@ void drop_degenerate_triangles(const std::string& path, ImportedMesh& imported, 
   }
   mesh.indices.resize(3 * kept);
   mesh.triangle_material.resize(kept);
-  if (kept < count && warn) warn(path + ": " + std::to_string(count - kept) + " triangles without area are left out");
+  if (kept < count && warn)
+    warn(path + ": " + counted(count - kept, "triangle without area is", "triangles without area are") + " left out");
 }
 
 }  // namespace

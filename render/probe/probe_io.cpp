@@ -6,6 +6,7 @@
 
 #include "catchlight/error.hpp"
 #include "catchlight/image.hpp"
+#include "catchlight/util/text.hpp"
 #include "render/image/image_io.hpp"
 #include "render/probe/probe.hpp"
 
@@ -76,7 +77,7 @@ void clean_texels(const std::string& path, Probe& probe, bool strict, const Warn
       lit += std::any_of(value, value + 3, [](float v) { return v > 0; });
     }
   }
-  const std::string found = std::to_string(bad) + " texels are negative, infinite or NaN, the first at (" + first + ")";
+  const std::string found = counted(bad, "texel is", "texels are") + " negative, infinite or NaN, the first at (" + first + ")";
   if (bad > 0 && strict) throw Error(path + ": " + found + "; repair the probe or leave out the strict option");
   if (bad > 0 && warn) warn(path + ": " + found + "; those values are taken as 0");
   if (lit == 0 && warn) warn(path + ": the probe is black; nothing will be lit");

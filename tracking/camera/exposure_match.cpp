@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "catchlight/util/statistics.hpp"
+#include "catchlight/util/text.hpp"
 
 namespace catchlight::tracking {
 namespace {
@@ -88,8 +89,8 @@ void ExposureCounts::add(const ExposureReading& reading, bool is_found) {
 
 std::optional<std::string> ExposureCounts::warning() const {
   if (held > 0)
-    return "the exposure could not be read off the tag in " + std::to_string(held) + " of " + std::to_string(found) +
-           " frames (covered, black or clipped) and is that of the frames around; where that shows, keep the tag in sight and "
+    return "the exposure could not be read off the tag in " + std::to_string(held) + " of " + counted(found, "frame") +
+           " (covered, black or clipped) and is that of the frames around; where that shows, keep the tag in sight and "
            "its white below clipping";
   if (guessed > 0 && guessed == found)
     return "the tag's white is clipped in every frame; the exposure is estimated from its black, which flare spoils: expose the "

@@ -6,6 +6,7 @@
 #include "app/media/pixels/convert.hpp"
 #include "app/media/pixels/pixel_layout.hpp"
 #include "catchlight/error.hpp"
+#include "catchlight/util/text.hpp"
 
 extern "C" {
 #include <libavutil/pixdesc.h>
@@ -199,9 +200,10 @@ void VideoSource::note_damage(const std::string& reason) {
 
 void VideoSource::throw_damaged(const std::string& reason) {
   finished_ = true;
-  std::string message = about() + " is damaged or cut short: " + std::to_string(delivered_);
-  if (request_.info.frame_count) message += " of " + std::to_string(*request_.info.frame_count);
-  throw DamagedMedia(message + " frames could be read (" + reason + ")");
+  const std::string read = request_.info.frame_count
+                               ? std::to_string(delivered_) + " of " + counted(*request_.info.frame_count, "frame")
+                               : counted(delivered_, "frame");
+  throw DamagedMedia(about() + " is damaged or cut short: " + read + " could be read (" + reason + ")");
 }
 
 void VideoSource::check_frame(const AVFrame& picture) {

@@ -46,7 +46,7 @@ cv::Mat residual_map(const Calibration& calibration) {
       cv::circle(picture, cv::Point(cvRound(at.x), cvRound(at.y)), 2, kPoint, cv::FILLED, cv::LINE_AA);
       draw_line(picture, at, at + magnified * fit.residuals_px[i], kResidual);
     }
-  write(picture, "used corners of " + std::to_string(calibration.views.size()) + " frames; residuals x " + number_text(magnified),
+  write(picture, "used corners of " + counted(calibration.views.size(), "frame") + "; residuals x " + plain_text(magnified),
         {8, 18});
   return picture;
 }

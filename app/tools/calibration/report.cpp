@@ -94,7 +94,7 @@ std::string calibration_text(const Calibration& calibration) {
     text += (i > 0 ? ", " : "") + with_deviation(kCoefficients[i], camera.distortion[i], deviation.distortion[i], 5);
   text += count == 0 ? "none\n" : "\n";
   return text + "error            " + fixed_text(calibration.rms_px, 3) + " px RMS over " +
-         std::to_string(calibration.views.size()) + " frames\n";
+         counted(calibration.views.size(), "frame") + '\n';
 }
 
 std::vector<std::string> calibration_hints(const Calibration& calibration, LensModel most) {

@@ -52,8 +52,8 @@ std::vector<double> times_of(const MergeRequest& request, std::size_t view) {
   const std::size_t count = request.views[view].size();
   if (request.times_s.size() == count && request.views.front().size() == count) return request.times_s;
   if (request.times_s.size() != all)
-    throw UsageError("--times has " + std::to_string(request.times_s.size()) + " times for " + std::to_string(all) +
-                     " photographs; give one for each, in the order of the files");
+    throw UsageError("--times has " + counted(request.times_s.size(), "time") + " for " + counted(all, "photograph") +
+                     "; give one for each, in the order of the files");
   const auto first = request.times_s.begin() + static_cast<std::ptrdiff_t>(before);
   return {first, first + static_cast<std::ptrdiff_t>(count)};
 }
@@ -77,7 +77,7 @@ class ResponseFinder {
     if (recovers || (wanted_ == "auto" && max_code == 255 && !recovered_.front().empty())) {
       if (recovered_.front().empty()) {
         recovered_ = recover_response(bracket);
-        log_.info("response: recovered from " + std::to_string(bracket.size()) + " photographs");
+        log_.info("response: recovered from " + counted(bracket.size(), "photograph"));
       }
       return recovered_;
     }
@@ -184,7 +184,7 @@ void tell_losses(const AssembledProbe& assembled, Log& log) {
         "the photographer and what is hidden behind the ball stay in the probe; a second view from 90 to 120 degrees around "
         "the ball removes both");
   if (assembled.clipped_sr > 0)
-    log.warn("highlights are lost: " + number_text(std::stod(fixed_text(1000 * assembled.clipped_sr, 3))) +
+    log.warn("highlights are lost: " + plain_text(std::stod(fixed_text(1000 * assembled.clipped_sr, 3))) +
              " msr are only known to be at least as bright as written, and give at least " +
              fixed_text(100 * assembled.clipped_light, 1) + " % of all light");
 }

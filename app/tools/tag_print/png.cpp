@@ -53,7 +53,7 @@ std::string png_bytes(const Page& page, int pixels_per_m) {
   const auto pixels = [&](double mm) { return static_cast<int>(std::lround(mm * pixels_per_mm)); };
   const double width_px = page.width_mm * pixels_per_mm, height_px = page.height_mm * pixels_per_mm;
   if (std::max(width_px, height_px) > kLongestSidePx || width_px * height_px > kMaxPixels)
-    throw UsageError("the picture would have " + number_text(std::round(width_px)) + " x " + number_text(std::round(height_px)) +
+    throw UsageError("the picture would have " + plain_text(std::round(width_px)) + " x " + plain_text(std::round(height_px)) +
                      " pixels; choose fewer --dpi, a smaller --paper, or PDF or SVG");
   cv::Mat1b image(pixels(page.height_mm), pixels(page.width_mm), std::uint8_t{255});
   for (const ShapeMm& shape : page.shapes)
@@ -73,8 +73,8 @@ PixelGrid on_pixels(const TagGrid& grid, double dpi) {
   const double cell_m = grid.size_m / tag_reach(grid.family).cells_across;
   PixelGrid result{grid, 0, static_cast<int>(std::lround(cell_m * dpi / kMetresPerInch))};
   if (result.pixels_per_cell < 1)
-    throw UsageError("--dpi is " + number_text(dpi) + ", less than one pixel for a cell of " + metres_text(cell_m) +
-                     " m; expected " + number_text(std::ceil(kMetresPerInch / cell_m)) + " or more");
+    throw UsageError("--dpi is " + plain_text(dpi) + ", less than one pixel for a cell of " + metres_text(cell_m) +
+                     " m; expected " + plain_text(std::ceil(kMetresPerInch / cell_m)) + " or more");
   result.pixels_per_m = static_cast<int>(std::lround(result.pixels_per_cell / cell_m));
   result.grid.size_m = grid.size_m / cell_m * result.pixels_per_cell / result.pixels_per_m;
   result.grid.spacing_m = std::round(grid.spacing_m * result.pixels_per_m) / result.pixels_per_m;

@@ -57,7 +57,7 @@ std::string what_would_fit(const TagGrid& grid, const SizeMm& room) {
     if (columns > 0 && rows > 0) return "a board of " + std::to_string(columns) + "x" + std::to_string(rows) + " fits";
   }
   const double largest_m = std::floor(1000 * grid.size_m * std::min(room.width, room.height) / tag.width) / 1000;
-  return "a single tag fits up to --size-m " + number_text(largest_m);
+  return "a single tag fits up to --size-m " + plain_text(largest_m);
 }
 
 SizeMm page_for(const TagGrid& grid, const std::string& paper) {
@@ -69,7 +69,7 @@ SizeMm page_for(const TagGrid& grid, const std::string& paper) {
   const SizeMm upright = found->second, lengthwise{upright.height, upright.width};
   for (const SizeMm& page : {upright, lengthwise})
     if (room_on(page).holds(content)) return page;
-  const auto rounded = [](double mm) { return number_text(std::ceil(mm)); };
+  const auto rounded = [](double mm) { return plain_text(std::ceil(mm)); };
   throw UsageError("the print with its white margin is " + rounded(content.width) + " x " + rounded(content.height) +
                    " mm, which " + paper + " has no room for; " + what_would_fit(grid, room_on(upright)) +
                    " (or take a larger --paper, or fit)");

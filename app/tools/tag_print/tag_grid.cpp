@@ -16,7 +16,7 @@ constexpr double kMinLength_m = 1e-4, kMaxLength_m = 100;
 
 std::string metres_text(double length_m) {
   const double rounded = std::round(length_m * 1e7) / 1e7;
-  return number_text(rounded == 0 ? 0 : rounded);
+  return plain_text(rounded == 0 ? 0 : rounded);
 }
 
 glm::dvec3 TagGrid::center_m(int index) const {
@@ -41,8 +41,8 @@ glm::ivec2 columns_and_rows(const std::string& text, const std::string& option) 
 
 void check_length(double length_m, const std::string& option) {
   if (length_m >= kMinLength_m && length_m <= kMaxLength_m) return;
-  throw UsageError(option + " is " + number_text(length_m) + "; expected metres, from " + number_text(kMinLength_m) + " to " +
-                   number_text(kMaxLength_m));
+  throw UsageError(option + " is " + plain_text(length_m) + "; expected metres, from " + plain_text(kMinLength_m) + " to " +
+                   plain_text(kMaxLength_m));
 }
 
 void check_tag_grid(const TagGrid& grid) {
@@ -54,8 +54,8 @@ void check_tag_grid(const TagGrid& grid) {
   const TagReach reach = tag_reach(grid.family);
   const double least_m = grid.size_m / reach.cells_across * (2 * reach.ink_cells + 1);
   if (grid.spacing_m < least_m * (1 - 1e-9))
-    throw UsageError("--spacing-m is " + number_text(grid.spacing_m) + ", from centre to centre; " + grid.family + " of " +
-                     number_text(grid.size_m) + " m with one white cell between tags needs " + metres_text(least_m) + " or more");
+    throw UsageError("--spacing-m is " + plain_text(grid.spacing_m) + ", from centre to centre; " + grid.family + " of " +
+                     plain_text(grid.size_m) + " m with one white cell between tags needs " + metres_text(least_m) + " or more");
 }
 
 std::string scene_toml(const TagGrid& grid) {

@@ -93,11 +93,18 @@ TEST(ReportJson, SurvivesNamesThatAreNotUtf8) {
 }
 
 TEST(ReportSummary, IsForPeople) {
-  const std::string text = report_summary(example());
-  EXPECT_THAT(text, HasSubstr("36 frames, 33 tracked, 2 coasting, 1 lost, 4.2 frames/s on llvmpipe"));
+  EXPECT_EQ(report_summary(example()), "36 frames, 33 tracked, 2 coasting, 1 lost, 4.2 frames/s on llvmpipe");
+  const std::string text = report_details(example());
   EXPECT_THAT(text, HasSubstr("track"));
   EXPECT_THAT(text, HasSubstr("rays = 256: for a tolerance of 0.02"));
   EXPECT_FALSE(text.ends_with('\n'));
+  EXPECT_EQ(report_details({}), "");
+}
+
+TEST(ReportSummary, OneFrameIsNotFrames) {
+  Report report;
+  report.frames = 1;
+  EXPECT_THAT(report_summary(report), ::testing::StartsWith("1 frame, 0 tracked"));
 }
 
 TEST(WriteReport, IsReadableJson) {

@@ -66,6 +66,21 @@ TEST(NumberText, IsShort) {
   EXPECT_EQ(number_text(-0.0), "-0");
 }
 
+TEST(PlainText, HasNoExponent) {
+  EXPECT_EQ(plain_text(0.0001), "0.0001");
+  EXPECT_EQ(plain_text(1e-6), "0.000001");
+  EXPECT_EQ(plain_text(1e6), "1000000");
+  EXPECT_EQ(plain_text(0.1), "0.1");
+  EXPECT_EQ(plain_text(std::numeric_limits<double>::max()).size(), 309U);
+}
+
+TEST(Counted, OneOfAThingStandsInTheSingular) {
+  EXPECT_EQ(counted(1, "frame"), "1 frame");
+  EXPECT_EQ(counted(0, "frame"), "0 frames");
+  EXPECT_EQ(counted(12U, "frame"), "12 frames");
+  EXPECT_EQ(counted(1, "vertex", "vertices") + ", " + counted(2, "vertex", "vertices"), "1 vertex, 2 vertices");
+}
+
 TEST(NumberFromText, TakesTheWholeTextOrNothing) {
   EXPECT_EQ(real_from_text("1.5"), 1.5);
   EXPECT_EQ(integer_from_text("-3"), -3);
