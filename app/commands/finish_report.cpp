@@ -8,9 +8,10 @@ void finish_report(Session& session, const std::string& path, bool overwrite, Co
   if (!path.empty()) write_report(path, report, overwrite);
   context.log.info(report_summary(report));
   if (const std::string details = report_details(report); !details.empty()) context.log.detail(details);
-  if (!session.damage()) return;
-  context.log.error(*session.damage());
-  context.exit_code = 1;
+  for (const std::string& failure : session.failures()) {
+    context.log.error(failure);
+    context.exit_code = 1;
+  }
 }
 
 }  // namespace catchlight::app

@@ -20,7 +20,7 @@ struct Options {
   std::string recording, output, track_in, track_out, report, frames;
   RecordingOverrides overrides;
   SinkOptions sink;
-  bool causal = false, debug = false;
+  bool causal = false, debug = false, allow_lost = false;
 };
 
 /// What can be refused before the footage is opened.
@@ -52,6 +52,7 @@ void overlay(const Options& options, Context& context) {
                    .is_causal = options.causal,
                    .wants_layers = holds_layers(options.output),
                    .wants_frames = !options.debug,
+                   .allows_lost = options.allow_lost,
                    .keeps_track = !options.track_out.empty()},
                   context.log);
   SinkOptions sink = options.sink;
@@ -83,6 +84,7 @@ void set_up_overlay(CLI::App& command, Context& context) {
   command.add_option("--track-out", options->track_out, "write the track, in any format of `catchlight track`");
   command.add_flag("--causal", options->causal, "track as live footage is: each frame knows only those before it");
   command.add_flag("--debug", options->debug, "draw the tag's corners, axes, state and residual over the frames");
+  command.add_flag("--allow-lost", options->allow_lost, "succeed also where the tag is never found");
   command.add_option("--report", options->report, "write what was done and how long it took, JSON");
   command.add_option("--codec", options->sink.codec, "h264 or ffv1, instead of what the extension says")
       ->check(CLI::IsMember({"h264", "ffv1"}));

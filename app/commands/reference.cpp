@@ -50,8 +50,8 @@ FrameJob viewed_frame(Session& session, std::int64_t frame) {
     session.track(*job);
     if (job->is_before_range) continue;
     if (!job->track.found)
-      throw Error(footage + ": the tag is not found in frame " + std::to_string(frame) +
-                  "; choose another --frame, or give its pose by --track");
+      throw Error(footage + ": the tag is not found in frame " + std::to_string(frame) + "; " +
+                  session.never_found().value_or("choose another --frame, or give its pose by --track"));
     session.view(*job);
     return std::move(*job);
   }

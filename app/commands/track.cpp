@@ -16,7 +16,7 @@ namespace {
 struct Options {
   std::string recording, output, track_in, report, frames;
   RecordingOverrides overrides;
-  bool overwrite = false, causal = false;
+  bool overwrite = false, causal = false, allow_lost = false;
 };
 
 void track(const Options& options, Context& context) {
@@ -25,7 +25,12 @@ void track(const Options& options, Context& context) {
   check_output_path(options.output, options.overwrite);
   if (!options.report.empty()) check_output_path(options.report, options.overwrite);
   Session session(open_recording(options.recording, options.overrides),
-                  {.task = "track", .range = range, .track_file = options.track_in, .is_causal = options.causal}, context.log);
+                  {.task = "track",
+                   .range = range,
+                   .track_file = options.track_in,
+                   .is_causal = options.causal,
+                   .allows_lost = options.allow_lost},
+                  context.log);
   const std::vector<TrackRow> rows = session.track_range();
   write_track(options.output, rows, {session.camera(), session.settings(), session.footage().info().is_sequence},
               options.overwrite, context.log.warning_handler());
@@ -54,6 +59,7 @@ void set_up_track(CLI::App& command, Context& context) {
   command.add_option("--track", options->track_in, "write this track file in another format, instead of tracking")
       ->type_name("FILE");
   command.add_flag("--causal", options->causal, "track as live footage is: each frame knows only those before it");
+  command.add_flag("--allow-lost", options->allow_lost, "succeed also where the tag is never found");
   command.add_option("--report", options->report, "write what was done and how long it took, JSON");
   show_examples(command, {"catchlight track recordings/matte -o track.csv",
                           "catchlight track clip.mp4 --camera camera.yaml --scene scene.toml -o camera.chan"});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "app/session/absent_tag.hpp"
 #include "app/session/frame_view.hpp"
 #include "catchlight/rigid_transform.hpp"
 #include "catchlight/tag.hpp"
@@ -70,6 +71,10 @@ std::optional<std::string> exposure_warning(const tracking::ExposureCounts& coun
   return follows_footage(settings.mode) ? counts.warning() : std::nullopt;
 }
 
+std::optional<std::string> text_of(const AbsentTag& absent, const TagTarget& target) {
+  return absent.is_absent() ? std::optional(absent.text(target)) : std::nullopt;
+}
+
 class TagTrack : public FrameTrack {
  public:
   TagTrack(const CameraModel& camera, const SceneSettings& scene)
@@ -88,12 +93,14 @@ class TagTrack : public FrameTrack {
     grain_.add(frame, row);
     row.noise = grain_.model();
     blur_.add(row);
+    absent_.add(frame, row.found);
     return row;
   }
 
   bool is_tracking() const override { return true; }
   bool finds_any(const FrameRange&) const override { return true; }
   std::optional<std::string> warning() const override { return exposure_warning(exposure_.counts(), settings_); }
+  std::optional<std::string> never_found() const override { return text_of(absent_, target_); }
 
  private:
   CameraModel camera_;
@@ -103,6 +110,7 @@ class TagTrack : public FrameTrack {
   tracking::ExposureMatch exposure_;
   tracking::GrainMeter grain_;
   tracking::BlurMeter blur_;
+  AbsentTag absent_;
 };
 
 class RecordedTrack : public FrameTrack {
@@ -144,6 +152,7 @@ struct ShotTrack::Impl {
   tracking::ShotTracker tracker;
   tracking::ExposureMatch exposure;
   tracking::GrainMeter grain;
+  AbsentTag absent;
   std::vector<TrackRow> rows;
 };
 
@@ -155,6 +164,7 @@ ShotTrack::ShotTrack(const CameraModel& camera, const SceneSettings& scene) {
                                       tracking::ShotTracker(camera, target, scene.tag.tracker_options()),
                                       exposure_match(camera, scene),
                                       tracking::GrainMeter(camera, target),
+                                      {},
                                       {}});
 }
 
@@ -164,6 +174,7 @@ void ShotTrack::add(const Frame& frame) {
   const TrackRow row = row_of(frame, impl_->tracker.add(frame.luma(), frame.time_s()), impl_->camera, impl_->target);
   impl_->exposure.add(frame, row);
   impl_->grain.add(frame, row);
+  impl_->absent.add(frame, row.found);
   impl_->rows.push_back(row);
 }
 
@@ -187,6 +198,10 @@ std::vector<TrackRow> ShotTrack::solve() const {
 
 std::optional<std::string> ShotTrack::warning(const std::vector<TrackRow>& rows) const {
   return exposure_warning(impl_->exposure.counts(rows), impl_->settings);
+}
+
+std::optional<std::string> ShotTrack::never_found() const {
+  return text_of(impl_->absent, impl_->target);
 }
 
 std::unique_ptr<FrameTrack> make_tag_track(const CameraModel& camera, const SceneSettings& scene) {

@@ -29,6 +29,9 @@ class FrameTrack {
 
   /// What the user should know of the rows so far, if anything.
   virtual std::optional<std::string> warning() const = 0;
+
+  /// What to say where this track has looked for the tag and found it in no frame so far.
+  virtual std::optional<std::string> never_found() const { return std::nullopt; }
 };
 
 /// Tracks the tag causally, for live footage: each row knows the frames before it. Measures the tag's photometry.
@@ -48,6 +51,9 @@ class ShotTrack {
 
   /// What the user should know of the rows that solve() gave, if anything.
   std::optional<std::string> warning(const std::vector<TrackRow>& rows) const;
+
+  /// What to say where the tag is in none of the frames.
+  std::optional<std::string> never_found() const;
 
  private:
   struct Impl;

@@ -34,28 +34,33 @@ bool adds_noise(Switch wanted, const NoiseModel& noise, const PlateColor& respon
   return wanted == Switch::on || is_visible(noise, response);
 }
 
-PlanEntry noise_entry(Switch wanted, const NoiseModel& noise, const PlateColor& response) {
+/// Why a figure is not known; `beyond`: where the tag was seen, and not only read from a file.
+std::string not_measured(const std::vector<TrackRow>& rows, bool has_track_file, const std::string& beyond) {
+  if (std::ranges::none_of(rows, &TrackRow::found)) return "not measured: the tag was not found";
+  return "not measured: " + (has_track_file ? "the track file does not say" : beyond);
+}
+
+PlanEntry noise_entry(Switch wanted, const NoiseModel& noise, const PlateColor& response, const std::string& not_measured) {
   const bool on = adds_noise(wanted, noise, response);
   std::string why;
   if (wanted == Switch::off) {
     why = "switched off";
   } else if (!noise.is_measured()) {
-    why = "not measured: the tag's cells are too small, or the track file does not say";
+    why = not_measured;
   } else {
-    why = "luma's grain is " + fixed_text(noise_codes(noise, response, kGrey), 2) + " codes on a grey of " +
-          fixed_text(kGrey, 2);
+    why = "luma's grain is " + fixed_text(noise_codes(noise, response, kGrey), 2) + " codes on a grey of " + fixed_text(kGrey, 2);
     if (!on) why += ", less than rounding's own";
     if (wanted == Switch::on) why += "; switched on";
   }
   return {"lens.noise", on ? "on" : "off", why};
 }
 
-PlanEntry defocus_entry(Switch wanted, const std::vector<TrackRow>& rows) {
+PlanEntry defocus_entry(Switch wanted, const std::vector<TrackRow>& rows, const std::string& not_measured) {
   std::vector<double> measured;
   for (const TrackRow& row : rows)
     if (row.blur.focus_px2 > 0) measured.push_back(row.blur.focus_px2);
   if (wanted == Switch::off) return {"lens.defocus", "off", "switched off"};
-  if (measured.empty()) return {"lens.defocus", "off", "not measured: needs tag.refinement direct"};
+  if (measured.empty()) return {"lens.defocus", "off", not_measured};
   BlurModel typical;
   typical.focus_px2 = median(std::move(measured));
   const double added = defocus_px2(wanted, typical);
@@ -64,7 +69,7 @@ PlanEntry defocus_entry(Switch wanted, const std::vector<TrackRow>& rows) {
               (added > 0 ? fixed_text(std::sqrt(added), 2) + " px more than a pixel's own" : "no more than a pixel's own")};
 }
 
-PlanEntry motion_entry(const SceneSettings::Lens& settings, const BlurModel& blur) {
+PlanEntry motion_entry(const SceneSettings::Lens& settings, const BlurModel& blur, const std::string& not_measured) {
   const double share = shutter_share(settings, blur);
   std::string why;
   if (settings.motion_blur == Switch::off)
@@ -73,6 +78,8 @@ PlanEntry motion_entry(const SceneSettings::Lens& settings, const BlurModel& blu
     why = "the shutter is set to " + fixed_text(share, 2) + " of the frame's interval";
   else if (blur.shutter > 0)
     why = "the tag's blur along its motion is that of a shutter open for " + fixed_text(share, 2) + " of the frame's interval";
+  else if (blur.focus_px2 == 0)
+    why = not_measured;
   else
     why = "the tag's edges show no blur along its motion";
   if (share > 0 && settings.shutter == 0 && blur.shutter == 0) why += "; switched on, for half of the interval";
@@ -173,11 +180,16 @@ render::CameraEffects camera_effects(const SceneSettings::Lens& settings, const 
   return effects;
 }
 
-std::vector<PlanEntry> lens_plan(const SceneSettings::Lens& settings, const std::vector<TrackRow>& rows, const Frame& frame,
-                                 const glm::dvec3& vignetting) {
+std::vector<PlanEntry> lens_plan(const SceneSettings& scene, const std::vector<TrackRow>& rows, const Frame& frame,
+                                 const glm::dvec3& vignetting, bool has_track_file) {
   if (rows.empty()) return {};
-  return {noise_entry(settings.noise, rows.back().noise, frame.color()), defocus_entry(settings.defocus, rows),
-          motion_entry(settings, rows.back().blur), vignetting_entry(settings.vignetting, vignetting),
+  const SceneSettings::Lens& settings = scene.lens;
+  const bool is_direct = scene.tag.tracker_options().refinement == tracking::Refinement::direct;
+  const std::string no_noise = not_measured(rows, has_track_file, "the tag's cells are too small"),
+                    no_blur = not_measured(rows, has_track_file,
+                                           is_direct ? "the tag's print fits in no frame" : "needs tag.refinement direct");
+  return {noise_entry(settings.noise, rows.back().noise, frame.color(), no_noise), defocus_entry(settings.defocus, rows, no_blur),
+          motion_entry(settings, rows.back().blur, no_blur), vignetting_entry(settings.vignetting, vignetting),
           chroma_entry(settings.chroma_subsampling, frame.color_block_shift())};
 }
 

@@ -46,8 +46,8 @@ double shutter_share(const SceneSettings::Lens& settings, const BlurModel& blur)
 render::CameraEffects camera_effects(const SceneSettings::Lens& settings, const TrackRow& row, const Frame& frame);
 
 /// The plan's entries for these effects: which are on, by what figure, and why.
-std::vector<PlanEntry> lens_plan(const SceneSettings::Lens& settings, const std::vector<TrackRow>& rows, const Frame& frame,
-                                 const glm::dvec3& vignetting);
+std::vector<PlanEntry> lens_plan(const SceneSettings& scene, const std::vector<TrackRow>& rows, const Frame& frame,
+                                 const glm::dvec3& vignetting, bool has_track_file = false);
 
 /// The frame's view: pose, exposure, black, and what the lens does, each as far as the settings want it. Every command draws a
 /// frame by this view, and so does the reference that it is compared with. No tone curve is set. `built` needs its files

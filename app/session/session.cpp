@@ -5,7 +5,6 @@
 #include <iterator>
 
 #include "app/session/frame_view.hpp"
-#include "app/session/solve_shot.hpp"
 #include "app/settings/change_cost.hpp"
 #include "app/settings/look.hpp"
 #include "catchlight/util/text.hpp"
@@ -28,6 +27,8 @@ void check_range(const std::string& footage, const FrameRange& range, const Sour
   if (range.begin >= info.first_number + *info.frame_count || range.end <= info.first_number)
     refuse_range(footage, range, *info.frame_count, info.first_number);
 }
+
+constexpr const char* kAllowLost = ". --allow-lost goes on without it";
 
 PlanEntry glare_entry(const SceneSettings& scene, const Report& report) {
   if (!scene.glare.enabled) return {"glare", "off", "glare.enabled is false"};
@@ -119,12 +120,28 @@ FrameTrack& Session::opened_track() {
 
 std::unique_ptr<FrameTrack> Session::open_track() {
   const SceneSettings& scene = recording_.scene;
-  if (!options_.track_file.empty()) return make_recorded_track(tracking::read_track_file(options_.track_file), camera_, scene);
+  if (!options_.track_file.empty()) {
+    std::vector<TrackRow> rows = tracking::read_track_file(options_.track_file);
+    if (std::ranges::none_of(rows, &TrackRow::found)) note_never_found(options_.track_file + ": no frame of it has a pose");
+    return make_recorded_track(std::move(rows), camera_, scene);
+  }
   if (!is_solved_whole()) return make_tag_track(camera_, scene);
   footage_->keep(frames_to_track(footage_->info(), options_.range));
-  SolvedShot solved = solve_shot(*footage_, camera_, scene, options_.range, log_, pass_.report.stages);
+  SolvedShot solved = solve();
   footage_->rewind();
   return make_recorded_track(std::move(solved.rows), camera_, scene);
+}
+
+SolvedShot Session::solve() {
+  SolvedShot solved = solve_shot(*footage_, camera_, recording_.scene, options_.range, log_, pass_.report.stages);
+  if (solved.never_found && solved.damage) log_.warn(*solved.damage);
+  if (solved.never_found) note_never_found(*solved.never_found);
+  return solved;
+}
+
+void Session::note_never_found(const std::string& text) {
+  if (!options_.allows_lost) throw Error(text + kAllowLost);
+  never_found_ = text;
 }
 
 std::unique_ptr<RewindableSource> Session::open_source(const Recording& recording) {
@@ -135,7 +152,7 @@ std::unique_ptr<RewindableSource> Session::open_source(const Recording& recordin
 std::vector<TrackRow> Session::track_range() {
   std::vector<TrackRow> rows;
   if (is_solved_whole()) {
-    SolvedShot solved = solve_shot(*footage_, camera_, recording_.scene, options_.range, log_, pass_.report.stages);
+    SolvedShot solved = solve();
     pass_.damage = solved.damage;
     for (const TrackRow& row : solved.rows)
       if (options_.range.contains(row.frame)) rows.push_back(row);
@@ -168,18 +185,26 @@ void Session::apply(const SceneSettings& settings) {
   }
   recording_ = std::move(changed);
   renderer_.apply(settings);
-  if (is_tracked_anew) track_.reset();
+  if (is_tracked_anew) track_.reset(), never_found_.reset();
 }
 
 void Session::warn_of_track() {
   if (const auto warning = track_ ? track_->warning() : std::nullopt) log_.warn(*warning);
   const Report& report = pass_.report;
   const std::string of_frames = " of " + counted(report.frames, "frame");
-  if (report.frames > 0 && report.lost_frames == report.frames)
-    log_.warn("the tag was never found in " + counted(report.frames, "frame") +
-              ", which pass through untouched; check tag.family, tag.id and that the tag is sharp and at least 20 px wide");
-  else if (report.lost_frames > 0)
+  if (track_ && !never_found_) never_found_ = track_->never_found();
+  if (never_found_) {
+    if (options_.allows_lost) log_.warn(*never_found_ + "; all frames pass through untouched");
+  } else if (report.lost_frames > 0) {
     log_.warn("no tag in " + std::to_string(report.lost_frames) + of_frames + ", which pass through untouched");
+  }
+}
+
+std::vector<std::string> Session::failures() const {
+  std::vector<std::string> failures;
+  if (never_found_ && !options_.allows_lost) failures.push_back(*never_found_ + kAllowLost);
+  if (pass_.damage) failures.push_back(*pass_.damage);
+  return failures;
 }
 
 /// How often the footage is decoded, and why.
@@ -201,7 +226,8 @@ std::vector<PlanEntry> Session::plan() const {
   plan.push_back(glare_entry(recording_.scene, pass_.report));
   std::vector<TrackRow> rows = pass_.typical_rows.values();
   if (rows.back().frame != pass_.last_row.frame) rows.push_back(pass_.last_row);
-  std::ranges::move(lens_plan(recording_.scene.lens, rows, *pass_.last_image, camera_.vignetting), std::back_inserter(plan));
+  std::ranges::move(lens_plan(recording_.scene, rows, *pass_.last_image, camera_.vignetting, !options_.track_file.empty()),
+                    std::back_inserter(plan));
   return plan;
 }
 

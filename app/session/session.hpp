@@ -14,6 +14,7 @@
 #include "app/session/recording.hpp"
 #include "app/session/report.hpp"
 #include "app/session/shot_renderer.hpp"
+#include "app/session/solve_shot.hpp"
 #include "app/support/log.hpp"
 #include "app/support/progress.hpp"
 #include "catchlight/camera.hpp"
@@ -27,6 +28,7 @@ struct SessionOptions {
   bool is_causal = false;       ///< track recorded footage as live footage is: each frame knows only those before it
   bool wants_layers = false;    ///< draw layers for compositing packages
   bool wants_frames = false;    ///< render() may write into job.image what else job.result holds
+  bool allows_lost = true;      ///< footage in which the tag is never found is not refused, nor a failure
   bool keeps_track = false;     ///< track_rows() is wanted: they grow with the footage
   std::int64_t kept_bytes = kept_frames_budget();  ///< of frames that are kept from tracking, so that they are decoded once
 };
@@ -72,6 +74,13 @@ class Session {
   const BuiltScene& load_scene() { return renderer_.load(); }
   const ShotRenderer& renderer() const { return renderer_; }
 
+  /// What is to be reported as a failure, though all that could be done is done: damaged footage; a tag that was never found,
+  /// where that is not allowed. Known after warn_of_track().
+  std::vector<std::string> failures() const;
+
+  /// What to say where the tag is in no frame, as far as that is known.
+  const std::optional<std::string>& never_found() const { return never_found_; }
+
   /// A text on the damage that ended the footage early; empty where none did.
   const std::optional<std::string>& damage() const { return pass_.damage; }
 
@@ -111,6 +120,10 @@ class Session {
   bool is_solved_whole() const;
   FrameTrack& opened_track();
   std::unique_ptr<FrameTrack> open_track();
+  SolvedShot solve();
+
+  /// Throws Error with the text where that is not allowed.
+  void note_never_found(const std::string& text);
   std::unique_ptr<RewindableSource> open_source(const Recording& recording);
   PlanEntry footage_entry() const;
 
@@ -121,6 +134,7 @@ class Session {
   CameraModel camera_;
   std::unique_ptr<FrameTrack> track_;  ///< null until it is first needed
   ShotRenderer renderer_;
+  std::optional<std::string> never_found_;  ///< what to say where the tag is in no frame
   std::optional<Progress> progress_;
   Pass pass_;
 };

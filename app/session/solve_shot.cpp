@@ -60,6 +60,7 @@ SolvedShot solve_shot(MediaSource& source, const CameraModel& camera, const Scen
     shot.damage = damaged.what();
   }
   shot.rows = stages.measure("solve", [&] { return track.solve(); });
+  shot.never_found = track.never_found();
   if (const auto warning = track.warning(shot.rows)) log.warn(*warning);
   std::erase_if(shot.rows, [&](const TrackRow& row) { return row.frame >= range.end; });
   return shot;

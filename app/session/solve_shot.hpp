@@ -16,8 +16,9 @@
 namespace catchlight::app {
 
 struct SolvedShot {
-  std::vector<TrackRow> rows;         ///< from the footage's first frame to the range's end
-  std::optional<std::string> damage;  ///< a text on the damage that ended the footage early
+  std::vector<TrackRow> rows;              ///< from the footage's first frame to the range's end
+  std::optional<std::string> damage;       ///< a text on the damage that ended the footage early
+  std::optional<std::string> never_found;  ///< what to say where the tag is in none of the frames, those beyond the range too
 };
 
 /// Tracks from the source's first frame to a second after the range's end, so that poses hardly depend on the range. Frames are

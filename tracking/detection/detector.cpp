@@ -31,14 +31,19 @@ std::array<glm::dvec2, 4> corners_from_library(const double (&library_corners)[4
 }
 
 struct Detector::Impl {
-  FamilyPtr family;
+  std::vector<FamilyPtr> families;
   DetectorPtr detector{apriltag_detector_create(), apriltag_detector_destroy};
 };
 
-Detector::Detector(const std::string& family, const TrackerOptions& options) {
+Detector::Detector(const std::string& family, const TrackerOptions& options) : Detector(std::vector{family}, options) {}
+
+Detector::Detector(const std::vector<std::string>& families, const TrackerOptions& options) {
   check_options(options);
-  impl_ = std::make_unique<Impl>(Impl{create_family(family)});
-  apriltag_detector_add_family_bits(impl_->detector.get(), impl_->family.get(), options.max_hamming);
+  impl_ = std::make_unique<Impl>();
+  for (const std::string& name : families) {
+    const FamilyPtr& family = impl_->families.emplace_back(create_family(name));
+    apriltag_detector_add_family_bits(impl_->detector.get(), family.get(), options.max_hamming);
+  }
   // With more, version 3.3.0 crashes now and then: a worker thread that starts late reads its task from a list that still grows,
   // and calls what it finds in freed memory (AprilRobotics/apriltag#339).
   impl_->detector->nthreads = 1;
@@ -60,9 +65,12 @@ std::vector<Detection> Detector::detect(const LumaView& luma, double decimate) {
   for (int i = 0; i < zarray_size(detections.get()); ++i) {
     apriltag_detection_t* detection = nullptr;
     zarray_get(detections.get(), i, &detection);
-    found.push_back({detection->id, detection->hamming, detection->decision_margin, corners_from_library(detection->p)});
+    const auto is_its = [&](const FamilyPtr& family) { return family.get() == detection->family; };
+    const auto family = std::find_if(impl_->families.begin(), impl_->families.end(), is_its) - impl_->families.begin();
+    found.push_back({detection->id, detection->hamming, detection->decision_margin, corners_from_library(detection->p),
+                     static_cast<std::size_t>(family)});
   }
-  const auto key = [](const Detection& d) { return std::tuple(d.id, d.corners_px[0].x, d.corners_px[0].y); };
+  const auto key = [](const Detection& d) { return std::tuple(d.family, d.id, d.corners_px[0].x, d.corners_px[0].y); };
   std::sort(found.begin(), found.end(), [&](const Detection& a, const Detection& b) { return key(a) < key(b); });
   return found;
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "catchlight/luma_view.hpp"
@@ -15,6 +16,7 @@ struct Detection {
   int hamming = 0;
   double decision_margin = 0;              ///< mean distance of the bits from the decision threshold, in luma codes
   std::array<glm::dvec2, 4> corners_px{};  ///< (-,-) (+,-) (+,+) (-,+) in the tag frame; OpenCV's pixel convention
+  std::size_t family = 0;                  ///< index into those that the detector was made with
 };
 
 /// The library returns corners from the tag's bottom left, counter-clockwise as the tag is read, which is our order;
@@ -25,6 +27,7 @@ class Detector {
  public:
   /// Throws Error for an unknown family or an option out of range.
   Detector(const std::string& family, const TrackerOptions& options);
+  Detector(const std::vector<std::string>& families, const TrackerOptions& options);
   ~Detector();
   Detector(Detector&&) noexcept;
   Detector& operator=(Detector&&) noexcept;

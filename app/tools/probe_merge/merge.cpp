@@ -154,8 +154,8 @@ glm::dmat3 orientation_of(const MergeRequest& request, std::size_t view, const I
   const std::string name = view_name(request, view);
   const std::optional<TagSight> tag = find_tag(image, *camera, *request.tag);
   if (!tag)
-    throw Error(name + ": the tag (" + request.tag->family + ", id " + std::to_string(request.tag->id) +
-                ") was not found; is all of it in the picture, sharp, with white around? --view-yaw does without a tag");
+    throw Error(name + ": the tag (" + request.tag->family + ", id " + std::to_string(request.tag->id) + ") was not found; " +
+                instead_of_tag(image, *request.tag) + ". --view-yaw does without a tag");
   log.info(name + ": tag found, corners within " + fixed_text(tag->corner_sigma_px, 2) + " px");
   constexpr double kMaxAmbiguity = 0.05;
   if (tag->ambiguity > kMaxAmbiguity)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/session/absent_tag.hpp"
 #include "catchlight/color.hpp"
 #include "catchlight/track.hpp"
 #include "tracking/observation.hpp"
@@ -50,6 +51,11 @@ std::optional<TagSight> find_tag(const Image& radiance, const CameraModel& camer
       best = TagSight{seen.camera_from_tag, seen.corner_sigma_px, seen.ambiguity};
   }
   return best;
+}
+
+std::string instead_of_tag(const Image& radiance, const TagTarget& target) {
+  const std::vector<std::uint8_t> codes = exposed(radiance, 0.25 / std::max(median_luminance(radiance), 1e-20));
+  return what_is_there(target, {{codes.data(), radiance.width, radiance.height, radiance.width}});
 }
 
 glm::dmat3 probe_from_camera(double yaw_deg, double pitch_deg) {

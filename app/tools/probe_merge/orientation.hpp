@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "catchlight/camera.hpp"
 #include "catchlight/image.hpp"
@@ -19,6 +20,9 @@ struct TagSight {
 /// The tag in a scene-linear picture. Its own light decides how it is exposed: several exposures are tried and the surest kept.
 /// Empty where none shows it.
 std::optional<TagSight> find_tag(const Image& radiance, const CameraModel& camera, const TagTarget& target);
+
+/// What to say of a picture in which it is not found.
+std::string instead_of_tag(const Image& radiance, const TagTarget& target);
 
 /// The orientation of a camera without a tag: `yaw_deg` 0 is at probe +z, looking at -z, as in the mirror-ball layout; 90 at +x.
 /// `pitch_deg` is how far the camera looks down. probe_from_camera.

@@ -160,9 +160,13 @@ TEST_F(OverlayCommand, TruncatedVideoKeepsTheFramesBeforeTheDamage) {
   EXPECT_THAT(read_text(folder_.path("report.json")), Not(HasSubstr("\"frames\": 12")));
 }
 
-TEST_F(OverlayCommand, TagThatNeverAppearsPassesTheFootageThrough) {
+TEST_F(OverlayCommand, TagThatNeverAppearsIsRefusedBeforeAnythingIsWritten) {
+  expect_refused(overlay(copied_recording(3), out_, {"--tag.id", "17"}), out_, {"never found in 3 frames", "give --tag.id 0"});
+}
+
+TEST_F(OverlayCommand, TagThatNeverAppearsPassesTheFootageThroughWhereThatIsAllowed) {
   const std::string copy = copied_recording(3);
-  const CommandResult result = overlay(copy, folder_.path("ours_%04d.png"), {"--tag.id", "17"});
+  const CommandResult result = overlay(copy, folder_.path("ours_%04d.png"), {"--tag.id", "17", "--allow-lost"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(count_of("catchlight: warning: the tag was never found in 3 frames", result.error), 1);
   run_shell("ffmpeg -v error -nostdin -i " + copy + "/video.mp4 -sws_flags accurate_rnd+full_chroma_int -start_number 0 " +

@@ -83,9 +83,24 @@ TEST_F(TrackCommand, LostFramesAreWarnedOfOnceWhereverThePosesComeFrom) {
   tracked(video, "poses.csv", {"--frames", "0:1"});
   const std::string two_lost = "warning: no tag in 2 of 3 frames", all_lost = "warning: the tag was never found in 3 frames";
   EXPECT_EQ(count_of(two_lost, track(video, output, {"-y", "--track", poses}).error), 1);
-  EXPECT_EQ(count_of(all_lost, track(video, output, {"-y", "--tag.id", "17"}).error), 1);
-  EXPECT_EQ(count_of(all_lost, track(video, output, {"-y", "--tag.id", "17", "--causal"}).error), 1);
+  EXPECT_EQ(count_of(all_lost, track(video, output, {"-y", "--tag.id", "17", "--allow-lost"}).error), 1);
+  EXPECT_EQ(count_of(all_lost, track(video, output, {"-y", "--tag.id", "17", "--allow-lost", "--causal"}).error), 1);
   EXPECT_EQ(count_of("warning", track(video, output, {"-y"}).error), 0) << "nothing is lost";
+}
+
+TEST_F(TrackCommand, ATagThatIsNeverFoundIsAFailureUnlessItIsAllowed) {
+  const std::string video = footage(3), output = folder_.path("track.csv");
+  const CommandResult refused = track(video, output, {"--tag.id", "17"});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.error, HasSubstr("error: the tag was never found in 3 frames"));
+  EXPECT_THAT(refused.error, HasSubstr("give --tag.id 0"));
+  EXPECT_FALSE(fs::exists(output));
+  EXPECT_EQ(track(video, output, {"--tag.id", "17", "--allow-lost"}).exit_code, 0);
+  EXPECT_TRUE(fs::exists(output));
+  const CommandResult nothing_in_file = track(video, output, {"-y", "--track", output});
+  EXPECT_EQ(nothing_in_file.exit_code, 1);
+  EXPECT_THAT(nothing_in_file.error, HasSubstr("no frame of it has a pose"));
+  EXPECT_EQ(track(video, output, {"-y", "--tag.id", "17", "--causal"}).exit_code, 1) << "known at the end alone";
 }
 
 TEST_F(TrackCommand, FramesBeforeTheDamageAreSolved) {

@@ -5,6 +5,8 @@
 #include "tests/support/exposure_fixture.hpp"
 #include "tests/support/synthetic_tag.hpp"
 
+#include <gmock/gmock.h>
+
 #include <algorithm>
 
 namespace catchlight::app {
@@ -90,6 +92,22 @@ TEST(ShotTrack, WithoutAnyTagEveryRowIsLostAndHasTheUsualExposure) {
   }
 }
 
+TEST(ShotTrack, WhereTheTagIsNeverFoundWhatIsThereIsNamed) {
+  SceneSettings scene = scene_of_tag_5();
+  scene.tag.id = 7;
+  ShotTrack other(small_camera(), scene), none(small_camera(), scene), found(small_camera(), scene_of_tag_5());
+  for (int i = 0; i < 12; ++i) {
+    other.add(frame_of(i, 100.0));
+    none.add(frame_of(i, std::nullopt));
+    found.add(frame_of(i, i == 11 ? std::optional(100.0) : std::nullopt));
+  }
+  EXPECT_EQ(other.never_found(),
+            "the tag was never found in 12 frames; tag36h11 #7 was looked for, and tag36h11 #5 is in every frame that was looked "
+            "at: give --tag.id 5");
+  EXPECT_THAT(none.never_found().value(), ::testing::HasSubstr("no tag of any family is there"));
+  EXPECT_EQ(found.never_found(), std::nullopt);
+}
+
 TEST(ShotTrack, RowsHaveTheFramesNumbersAndTimes) {
   const auto rows = solved({frame_of(17, 100.0), frame_of(18, 100.0)});
   EXPECT_EQ(rows[0].frame, 17);
@@ -106,7 +124,9 @@ TEST(TagTrack, LiveFootageKnowsOnlyTheFramesBefore) {
   const TrackRow before = track->row(frame_of(0, std::nullopt));
   EXPECT_FALSE(before.found);
   EXPECT_EQ(before.exposure, glm::dvec3(0.75)) << "nothing was measured yet";
+  EXPECT_TRUE(track->never_found());
   EXPECT_EQ(track->row(frame_of(1, 100.0)).state, TrackState::tracking);
+  EXPECT_FALSE(track->never_found());
   EXPECT_EQ(track->row(frame_of(2, std::nullopt)).state, TrackState::coasting);
 }
 

@@ -304,6 +304,25 @@ TEST(CameraEffects, EverythingCanBeSwitchedOffAlone) {
   EXPECT_EQ(camera_effects(lens, row, frame).motion.shift_m.x, 0.005);
 }
 
+TEST(CameraEffects, ThePlanNeitherAsksForWhatIsOnNorBlamesTheCellsOfATagThatIsNotThere) {
+  using ::testing::HasSubstr;
+  const Frame frame = noisy_frame(scene(), glm::dvec3(0), 0, 1);
+  TrackRow found;
+  found.found = true;
+  SceneSettings settings;
+  const auto reason = [&](const TrackRow& row, std::size_t entry, bool has_track_file = false) {
+    return lens_plan(settings, {row}, frame, {}, has_track_file)[entry].reason;
+  };
+  for (const std::size_t entry : {0, 1, 2}) {
+    EXPECT_EQ(reason(TrackRow{}, entry), "not measured: the tag was not found");
+    EXPECT_EQ(reason(found, entry, true), "not measured: the track file does not say");
+  }
+  EXPECT_EQ(reason(found, 0), "not measured: the tag's cells are too small");
+  EXPECT_THAT(reason(found, 1), ::testing::Not(HasSubstr("direct"))) << "it is on";
+  settings.tag.refinement = tracking::Refinement::corners;
+  EXPECT_THAT(reason(found, 1), HasSubstr("needs tag.refinement direct"));
+}
+
 TEST(CameraEffects, NothingMeasuredIsNothingAddedAndThePlanSaysWhy) {
   const Frame frame = noisy_frame(scene(), glm::dvec3(0), 0, 1);
   const render::CameraEffects none = camera_effects({}, TrackRow{}, frame);
