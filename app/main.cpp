@@ -12,7 +12,7 @@ using namespace catchlight::app;
 constexpr Command kCommands[] = {
     {"overlay", "Put the virtual objects into footage", set_up_overlay},
     {"track", "Find the tag and its exposure in footage; no drawing", set_up_track},
-    {"replay", "Overlay recordings whose truth is known and say what drifted", set_up_replay},
+    {"replay", "Overlay recordings and say what drifted from the truth, or from a run that was kept", set_up_replay},
     {"reference", "Path trace one frame with the object in it, to compare an overlay with", set_up_reference},
     {"bake", "Precompute how light travels over a recording's objects", set_up_bake},
     {"probe", "Look at light probes and convert them", set_up_probe},

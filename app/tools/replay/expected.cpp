@@ -50,7 +50,8 @@ ExpectedFigures read_expected(const std::string& path) {
 void write_expected(const std::string& path, const std::vector<Figure>& figures) {
   std::ostringstream text;
   text << "# What `catchlight replay` measured here when it was last blessed (`--bless` rewrites this file).\n"
-          "# Pictures: display-coded errors against the path-traced truth, of 255; PSNR in dB. Poses: against poses.csv.\n";
+          "# Pictures: display-coded errors of 255 against truth/ (PSNR in dB), or baseline/ where no truth is known.\n"
+          "# Poses: against poses.csv, or baseline/track.csv.\n";
   std::string table;
   for (const Figure& figure : figures) {
     const std::size_t dot = figure.key.find('.');

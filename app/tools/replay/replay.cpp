@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <opencv2/imgproc.hpp>
+#include <set>
 
 #include "app/session/run_stages.hpp"
+#include "app/support/output_file.hpp"
+#include "app/tools/replay/replay_pictures.hpp"
 #include "app/tools/replay/sheet.hpp"
-#include "catchlight/camera.hpp"
-#include "catchlight/composite.hpp"
 #include "catchlight/error.hpp"
-#include "catchlight/plate.hpp"
 #include "render/image/picture_file.hpp"
 #include "tracking/track_file.hpp"
 
@@ -20,19 +21,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-cv::Mat bgr_of(const Frame& frame) {
-  const Plate plate = frame.rgb({0, 0, frame.width_px(), frame.height_px()});
-  const int depth = plate.format == Plate::Format::rgb_u8    ? CV_8UC3
-                    : plate.format == Plate::Format::rgb_u16 ? CV_16UC3
-                                                             : CV_32FC3;
-  const double to_8_bit = depth == CV_8UC3 ? 1.0 : depth == CV_16UC3 ? 1.0 / 257 : 255.0;
-  const cv::Mat codes(plate.rect.height, plate.rect.width, depth, const_cast<std::byte*>(plate.pixels.data()));
-  cv::Mat bgr;
-  cv::cvtColor(codes, bgr, cv::COLOR_RGB2BGR);
-  bgr.convertTo(bgr, CV_8U, to_8_bit);
-  return bgr;
-}
-
 /// The frames of a recording whose truth is known, and how ours differ from it.
 class TruthFrames {
  public:
@@ -40,12 +28,13 @@ class TruthFrames {
 
   bool has(std::int64_t number) const { return fs::exists(path("truth", number)); }
 
-  void compare(const Frame& plate, const Composite& composite) {
-    const cv::Mat ours = bgr_of(composite.rect.empty() ? plate : plate.with_composite(composite)), plate_bgr = bgr_of(plate);
-    const cv::Mat truth = read(path("truth", plate.number()), ours.size());
-    const fs::path clean_path = path("plate_clean", plate.number());
+  void compare(const FrameJob& job) {
+    const cv::Mat ours = composited_bgr(job), plate_bgr = bgr_of(job.image);
+    const std::int64_t number = job.image.number();
+    const cv::Mat truth = read(path("truth", number), ours.size());
+    const fs::path clean_path = path("plate_clean", number);
     const cv::Mat clean = fs::exists(clean_path) ? read(clean_path, ours.size()) : plate_bgr;
-    cv::Mat mask = read(path("mask", plate.number()), ours.size());
+    cv::Mat mask = read(path("mask", number), ours.size());
     cv::cvtColor(mask, mask, cv::COLOR_BGR2GRAY);
     comparisons.push_back(compare_with_truth(ours, truth, plate_bgr, clean, mask));
     sheet_rows.push_back(sheet_row(plate_bgr, ours, truth));
@@ -63,11 +52,7 @@ class TruthFrames {
 
   static cv::Mat read(const fs::path& path, const cv::Size& size) {
     if (!fs::exists(path)) throw Error(path.string() + ": missing; every frame of truth/ needs its mask/");
-    cv::Mat image = render::read_picture(path.string(), render::PictureDepth::eight_bits);
-    if (image.size() != size)
-      throw Error(path.string() + ": is " + std::to_string(image.cols) + "x" + std::to_string(image.rows) + ", the footage is " +
-                  std::to_string(size.width) + "x" + std::to_string(size.height));
-    return image;
+    return read_bgr(path.string(), size);
   }
 
   std::string folder_;
@@ -103,6 +88,105 @@ void add_figures(const TruthComparison& pictures, bool glares, std::vector<Figur
   figures.push_back({"elsewhere.changed_mean", pictures.elsewhere_changed_mean, 0.02});
 }
 
+void add_figures(const KeptComparison& kept, const std::vector<TrackRow>& rows, std::vector<Figure>& figures) {
+  const auto found = std::ranges::count_if(rows, [](const TrackRow& row) { return row.found; });
+  figures.push_back({"track.found_frames", static_cast<double>(found), 0});
+  figures.push_back({"picture.frames", static_cast<double>(kept.frames), 0});
+  figures.push_back({"picture.mean", kept.worst.mean, 0.2});
+  figures.push_back({"picture.p99", kept.worst.p99, 2});
+}
+
+/// Takes the session through its footage. `compare` sees the frames that `wants` wants; where both renderers draw, they draw all.
+void run(Session& session, const ReplayOptions& options, const std::function<bool(const FrameJob&)>& wants,
+         const std::function<void(const FrameJob&)>& compare, ReplayResult& result, Log& log) {
+  std::optional<RendererComparison> renderers;
+  if (options.both_draw) renderers.emplace(session.settings(), session.camera(), log);
+  const auto write = [&](const FrameJob& job) {
+    if (wants(job)) compare(job);
+  };
+  const auto look = [&](const FrameJob& job) {
+    if (renderers) renderers->compare(job);
+  };
+  run_stages(session, write, {.wants = [&](const FrameJob& job) { return options.both_draw || wants(job); }, .look = look});
+  if (session.damage()) throw Error(*session.damage());
+  session.warn_of_track();
+  result.name = session.recording().name;
+  if (renderers) result.renderers = renderers->difference();
+}
+
+void compare_with(const std::string& track_file, const Session& session, ReplayResult& result) {
+  result.pose =
+      compare_poses(session.track_rows(), tracking::read_track_file(track_file), session.camera(), session.settings().tag.size_m);
+  add_figures(*result.pose, result.figures);
+}
+
+ReplayResult replay_truth(Recording recording, const ReplayOptions& options, Log& log) {
+  if (!recording.scene.is_by_hand("glare.enabled")) recording.scene.glare.enabled = false;
+  recording.scene.lens.noise = Switch::off;
+  Session session(std::move(recording), {.keeps_track = true}, log);
+  TruthFrames truth(session.recording().folder);
+  ReplayResult result;
+  run(
+      session, options, [&](const FrameJob& job) { return truth.has(job.image.number()); },
+      [&](const FrameJob& job) { truth.compare(job); }, result, log);
+  if (const auto& poses = session.recording().poses_csv) compare_with(*poses, session, result);
+  if (!truth.comparisons.empty()) {
+    result.pictures = mean_of(truth.comparisons);
+    add_figures(*result.pictures, session.settings().glare.enabled, result.figures);
+    write_sheet(options.sheet, truth.sheet_rows);
+    result.has_sheet = true;
+  }
+  if (result.figures.empty())
+    throw Error(session.recording().folder + ": truth/ has no frame of the footage; expected truth/0000.png, ... with mask/");
+  return result;
+}
+
+/// Tracks the recording and keeps that. Returns the frames whose pictures are to be kept.
+std::set<std::int64_t> keep_track(const Recording& recording, const Baseline& baseline, Log& log) {
+  Session session(recording, {.task = "track", .keeps_track = true}, log);
+  const std::vector<TrackRow> rows = session.track_range();
+  if (session.damage()) throw Error(*session.damage());
+  const std::vector<std::int64_t> frames = baseline.keep(rows);
+  return {frames.begin(), frames.end()};
+}
+
+void keep_picture(const std::string& path, const cv::Mat& picture) {
+  PendingFile file = pending_output(path, true);
+  render::write_png(file.pending_path(), picture);
+  file.commit();
+}
+
+ReplayResult replay_baseline(Recording recording, const ReplayOptions& options, Log& log) {
+  const Baseline baseline(recording.folder);
+  std::set<std::int64_t> kept_anew;
+  if (options.bless) kept_anew = keep_track(recording, baseline, log);
+  Session session(std::move(recording), {.track_file = options.bless ? baseline.track_file() : "", .keeps_track = true}, log);
+  ReplayResult result;
+  result.kept.emplace();
+  std::vector<cv::Mat> sheet;
+  const auto wants = [&](const FrameJob& job) {
+    const std::int64_t number = job.image.number();
+    return options.bless ? kept_anew.contains(number) : baseline.has_picture(number);
+  };
+  const auto compare = [&](const FrameJob& job) {
+    const std::string path = baseline.picture(job.image.number());
+    const cv::Mat ours = composited_bgr(job), plate = bgr_of(job.image);
+    if (options.bless) keep_picture(path, ours);
+    const cv::Mat kept = read_bgr(path, ours.size());
+    const KeptDifference apart = compare_with_kept(ours, kept, plate);
+    KeptDifference& worst = result.kept->worst;
+    worst = {std::max(worst.mean, apart.mean), std::max(worst.p99, apart.p99)};
+    ++result.kept->frames;
+    sheet.push_back(sheet_row(plate, ours, kept));
+  };
+  run(session, options, wants, compare, result, log);
+  compare_with(baseline.track_file(), session, result);
+  add_figures(*result.kept, session.track_rows(), result.figures);
+  if (!sheet.empty()) write_sheet(options.sheet, sheet);
+  result.has_sheet = !sheet.empty();
+  return result;
+}
+
 }  // namespace
 
 std::vector<std::string> find_recordings(const std::string& location) {
@@ -117,42 +201,21 @@ std::vector<std::string> find_recordings(const std::string& location) {
   return folders;
 }
 
-ReplayResult replay_recording(const std::string& location, const RecordingOverrides& overrides, bool both_draw,
-                              const std::string& sheet_path, Log& log) {
-  Recording recording = open_recording(location, overrides);
-  if (!recording.scene.is_by_hand("glare.enabled")) recording.scene.glare.enabled = false;
-  recording.scene.lens.noise = Switch::off;
-  if (both_draw) recording.scene.renderer = Renderer::cpu;
-  Session session(std::move(recording), {.keeps_track = true}, log);
-  TruthFrames truth(session.recording().folder);
-  std::optional<RendererComparison> renderers;
-  if (both_draw) renderers.emplace(session.settings(), session.camera(), log);
-  const auto has_truth = [&](const FrameJob& job) { return truth.has(job.image.number()); };
-  const auto write = [&](const FrameJob& job) {
-    if (has_truth(job)) truth.compare(job.image, job.result);
-  };
-  const auto look = [&](const FrameJob& job) {
-    if (renderers) renderers->compare(job);
-  };
-  run_stages(session, write, {.wants = [&](const FrameJob& job) { return both_draw || has_truth(job); }, .look = look});
-  if (session.damage()) throw Error(*session.damage());
-  session.warn_of_track();
+bool knows_truth(const std::string& folder) {
+  return fs::exists(fs::path(folder) / "poses.csv") || fs::exists(fs::path(folder) / "truth");
+}
 
-  ReplayResult result;
-  result.name = session.recording().name;
-  if (renderers) result.renderers = renderers->difference();
-  if (const auto& poses = session.recording().poses_csv) {
-    result.pose =
-        compare_poses(session.track_rows(), tracking::read_track_file(*poses), session.camera(), session.settings().tag.size_m);
-    add_figures(*result.pose, result.figures);
-  }
-  if (!truth.comparisons.empty()) {
-    result.pictures = mean_of(truth.comparisons);
-    add_figures(*result.pictures, session.settings().glare.enabled, result.figures);
-    write_sheet(sheet_path, truth.sheet_rows);
-  }
-  if (result.figures.empty()) throw Error(location + ": nothing to compare with; expected poses.csv or truth/ with mask/");
-  return result;
+void check_comparable(const std::string& folder, bool bless) {
+  if (bless || knows_truth(folder) || Baseline(folder).is_kept()) return;
+  throw Error(folder + ": nothing to compare with: neither poses.csv nor truth/, and no run was kept; overlay it and look at " +
+              "the result, then run replay with --bless, which keeps that in baseline/ (docs/replay.md)");
+}
+
+ReplayResult replay_recording(const std::string& folder, const ReplayOptions& options, Log& log) {
+  Recording recording = open_recording(folder, options.overrides);
+  if (options.both_draw) recording.scene.renderer = Renderer::cpu;
+  return knows_truth(folder) ? replay_truth(std::move(recording), options, log)
+                             : replay_baseline(std::move(recording), options, log);
 }
 
 }  // namespace catchlight::app

@@ -1,4 +1,4 @@
-// overlay, track and replay as users run them: what they write, and what they say about bad input.
+// overlay and track as users run them: what they write, and what they say about bad input.
 #include <gmock/gmock.h>
 
 #include <cstdlib>
@@ -274,7 +274,7 @@ TEST_F(OverlayCommand, MeshWithoutNormalsIsDrawn) {
   EXPECT_EQ(result.exit_code, 0) << result.error;
 }
 
-// --- track and replay -------------------------------------------------------------------------------------------------
+// --- track ------------------------------------------------------------------------------------------------------------
 
 TEST_F(OverlayCommand, TrackNeedsNeitherMeshNorProbe) {
   const std::string copy = copied_recording(2);
@@ -305,36 +305,6 @@ TEST_F(OverlayCommand, UnknownTrackFormatIsFoundOutBeforeTheWork) {
   const std::string copy = copied_recording(1), odd = folder_.path("track.fbx");
   expect_refused(run_catchlight({"track", copy, "-o", odd}), odd, {"track.fbx", "\".glb\""}, 2);
   expect_refused(overlay(copy, out_, {"--track-out", odd}), out_, {"track.fbx", "\".glb\""}, 2);
-}
-
-TEST_F(OverlayCommand, ReplayWithoutExpectedFiguresFailsAndBlessWritesThem) {
-  const std::string copy = copied_recording(1);
-  fs::copy(recording() + "/poses.csv", copy + "/poses.csv");
-  for (const char* kind : {"truth", "mask", "plate_clean"}) {
-    fs::create_directories(copy + "/" + kind);
-    fs::copy(recording() + "/" + kind + "/0000.png", copy + "/" + kind + "/0000.png");
-  }
-  const auto replay = [&](std::vector<std::string> more) {
-    std::vector<std::string> arguments = {"replay",
-                                          copy,
-                                          "-o",
-                                          folder_.path("sheets"),
-                                          "--quiet",
-                                          "--quality.rays=64",
-                                          "--quality.bands=2",
-                                          "--quality.reflection_rays=0"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_catchlight(arguments, {{"XDG_CACHE_HOME", folder_.path("cache")}});
-  };
-  const CommandResult missing = replay({});
-  EXPECT_EQ(missing.exit_code, 1);
-  EXPECT_THAT(missing.error, HasSubstr("--bless"));
-  EXPECT_TRUE(fs::exists(folder_.path("sheets/recording.png")));
-  EXPECT_EQ(replay({"--bless"}).exit_code, 0);
-  EXPECT_EQ(replay({}).exit_code, 0) << "nothing drifts between two runs";
-  const CommandResult drifted = replay({"--exposure.ev", "0.5"});
-  EXPECT_EQ(drifted.exit_code, 1);
-  EXPECT_THAT(drifted.error, HasSubstr("mask.mean"));
 }
 
 }  // namespace

@@ -3,21 +3,30 @@
 
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "app/tools/replay/baseline.hpp"
 #include "app/tools/replay/expected.hpp"
 #include "app/tools/replay/pose_comparison.hpp"
+#include "app/tools/replay/replay.hpp"
+#include "app/tools/replay/replay_report.hpp"
 #include "app/tools/replay/sheet.hpp"
 #include "app/tools/replay/truth_comparison.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/track.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tracking/track_file.hpp"
 
 namespace catchlight::app {
 namespace {
 
+using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using tests::message_of;
 
 // --- pictures ---------------------------------------------------------------------------------------------------------
 
@@ -92,6 +101,89 @@ TEST(TruthComparison, NoObjectInSightCountsNowhere) {
   const Pictures q;
   const TruthComparison some = compare_with_truth(q.plate, q.truth, q.plate, q.plate, q.mask);
   EXPECT_DOUBLE_EQ(mean_of({none, some}).mask.mean, some.mask.mean);
+}
+
+// --- a kept run -------------------------------------------------------------------------------------------------------
+
+TEST(KeptPicture, ComparesWhereEitherChangesThePlateAndNowhereElse) {
+  const Pictures p;
+  const KeptDifference same = compare_with_kept(p.truth, p.truth, p.plate);
+  EXPECT_EQ(same.mean, 0);
+  EXPECT_EQ(same.p99, 0);
+  // 2400 pixels are changed, the object's 1600 of them by 6 more in one channel: 6 x 1600 / 2400.
+  cv::Mat ours = p.truth.clone();
+  ours(cv::Rect(40, 40, 40, 40)) += cv::Scalar(0, 6, 2);
+  EXPECT_NEAR(compare_with_kept(ours, p.truth, p.plate).mean, 4, 1e-9);
+  EXPECT_EQ(compare_with_kept(ours, p.truth, p.plate).p99, 6);
+  EXPECT_EQ(compare_with_kept(p.truth, ours, p.plate).mean, 4) << "either way";
+  // A shadow that is gone counts where it was.
+  ours = p.truth.clone();
+  ours(cv::Rect(40, 84, 40, 20)) = cv::Scalar(128, 128, 128);
+  EXPECT_NEAR(compare_with_kept(ours, p.truth, p.plate).mean, 38.0 / 3, 1e-9);
+  EXPECT_EQ(compare_with_kept(p.plate, p.plate, p.plate).mean, 0) << "nothing is drawn";
+}
+
+std::vector<TrackRow> rows_found(const std::vector<bool>& found) {
+  std::vector<TrackRow> rows(found.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    rows[i].frame = static_cast<std::int64_t>(i);
+    rows[i].found = found[i];
+    rows[i].state = found[i] ? TrackState::tracking : TrackState::lost;
+  }
+  return rows;
+}
+
+TEST(Baseline, KeepsTheTrackAndChoosesFramesThatShowTheTag) {
+  const tests::TemporaryFolder folder;
+  const Baseline baseline(folder.path());
+  EXPECT_FALSE(baseline.is_kept());
+  EXPECT_THAT(baseline.keep(rows_found({false, true, true, true, false, true, false})), ElementsAre(1, 3, 5));
+  EXPECT_TRUE(baseline.is_kept());
+  EXPECT_EQ(tracking::read_track_file(baseline.track_file()).size(), 7u);
+  EXPECT_THAT(baseline.keep(rows_found({false, true})), ElementsAre(1)) << "a frame is kept once";
+  EXPECT_THAT(message_of<Error>([&] { baseline.keep(rows_found({false, false})); }), HasSubstr("found in no frame"));
+}
+
+TEST(Baseline, KeepsTheFramesThatUsersChose) {
+  const tests::TemporaryFolder folder;
+  folder.write("baseline/0002.png", "");
+  folder.write("baseline/0009.png", "");  // not of this footage
+  EXPECT_THAT(Baseline(folder.path()).keep(rows_found({true, true, false, true})), ElementsAre(2));
+}
+
+TEST(CheckComparable, SaysWhatWouldMakeARecordingComparable) {
+  const tests::TemporaryFolder folder;
+  EXPECT_THAT(message_of<Error>([&] { check_comparable(folder.path(), false); }),
+              AllOf(HasSubstr("truth/"), HasSubstr("--bless")));
+  EXPECT_NO_THROW(check_comparable(folder.path(), true));
+  Baseline(folder.path()).keep(rows_found({true}));
+  EXPECT_NO_THROW(check_comparable(folder.path(), false));
+  EXPECT_FALSE(knows_truth(folder.path()));
+  folder.write("poses.csv", "");
+  EXPECT_TRUE(knows_truth(folder.path()));
+}
+
+TEST(ReplayReport, HasEveryFigureWithWhatWasExpectedOfIt) {
+  Replayed replayed;
+  replayed.folder = "shots/a", replayed.sheet = "out/a.png";
+  replayed.result.name = "a";
+  replayed.result.kept.emplace();
+  replayed.result.figures = {{"picture.mean", 0.5, 0.2}, {"picture.p99", 1, 2}};
+  replayed.expected = {{"picture.mean", 0}};
+  replayed.drifted = {"picture.mean = 0.5, expected 0 +- 0.2"};
+  const auto json = nlohmann::json::parse(replay_json({replayed}));
+  EXPECT_EQ(json["as_expected"], false);
+  const auto& a = json["recordings"][0];
+  EXPECT_EQ(a["name"], "a");
+  EXPECT_EQ(a["folder"], "shots/a");
+  EXPECT_EQ(a["verdict"], "drifted");
+  EXPECT_EQ(a["against"], "baseline");
+  EXPECT_TRUE(a["sheet"].is_null()) << "there were no pictures";
+  EXPECT_EQ(a["figures"]["picture.mean"], (nlohmann::json{{"value", 0.5}, {"expected", 0.0}, {"tolerance", 0.2}}));
+  EXPECT_TRUE(a["figures"]["picture.p99"]["expected"].is_null());
+  EXPECT_EQ(a["messages"], nlohmann::json(replayed.drifted));
+  replayed.drifted.clear();
+  EXPECT_EQ(nlohmann::json::parse(replay_json({replayed}))["as_expected"], true);
 }
 
 TEST(Sheet, PutsFourPicturesSideBySideAndAmplifiesTheDifference) {
