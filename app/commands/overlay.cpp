@@ -75,7 +75,7 @@ void set_up_overlay(CLI::App& command, Context& context) {
   add_renderer_options(command, options->overrides);
   command
       .add_option("-o,--output", options->output,
-                  "out.mp4, .mkv, .mov (H.264); .avi, .nut (FFV1); %04d.png; %04d.exr (layers); - (y4m on stdout)")
+                  "out.mp4, .mkv, .mov (H.264); .avi, .nut (FFV1); .y4m; %04d.png; %04d.exr (layers); - (y4m on stdout)")
       ->required();
   command.add_flag("-y,--overwrite", options->sink.overwrite, "replace existing outputs");
   command.add_option("--frames", options->frames,

@@ -79,8 +79,8 @@ cv::Mat only_matrix(const std::string& path, const std::string& text) {
       node >> matrix;
       ++found;
     }
-  } catch (const cv::Exception& exception) {
-    refuse(path, "is not a FileStorage that OpenCV can read (" + exception.err + ")");
+  } catch (const cv::Exception&) {
+    refuse(path, "is not YAML or XML as cv::FileStorage writes it; a table of codes may be .csv too (docs/exposure.md)");
   }
   if (found != 1)
     refuse(path,

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "app/settings/parameters.hpp"
+#include "app/settings/toml_problem.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/util/text.hpp"
 #include "toml++/toml.h"
@@ -167,7 +168,7 @@ SceneSettings read_scene_file(const std::string& path) {
   } catch (const toml::parse_error& error) {
     const auto& where = error.source().begin;
     throw Error(path + ':' + std::to_string(where.line) + ':' + std::to_string(where.column) + ": " +
-                std::string(error.description()));
+                toml_problem(error.description()));
   }
   return settings;
 }

@@ -42,7 +42,7 @@ Image read_colors(const std::string& path) {
   try {
     codes = read_picture(path, PictureDepth::stored);
   } catch (const Error& error) {
-    refuse("not a picture that can be read: " + std::string(error.what()));
+    refuse(error.what());
   }
   cv::cvtColor(codes, codes, cv::COLOR_BGR2RGB);
   codes.convertTo(codes, CV_32F, codes.depth() == CV_8U ? 1.0 / 255 : codes.depth() == CV_16U ? 1.0 / 65535 : 1.0);

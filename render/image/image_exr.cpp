@@ -12,6 +12,7 @@
 #include <cmath>
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <string_view>
 #include <system_error>
 #include <thread>
 
@@ -178,7 +179,12 @@ ExrPicture read_exr_picture(const std::string& path) {
   } catch (const Error&) {
     throw;
   } catch (const std::exception& error) {
-    throw Error(path + ": cannot be read as OpenEXR: " + error.what());
+    if (!std::filesystem::is_regular_file(path)) throw Error(path + ": no such file");
+    const bool is_cut_short = std::string_view(error.what()).find("end of file") != std::string_view::npos;
+    throw Error(path + (is_cut_short
+                            ? ": is cut short; write or copy it again"
+                            : ": is damaged, or an OpenEXR file of a kind that is not read; write it again as scan lines of "
+                              "half or float"));
   }
 }
 

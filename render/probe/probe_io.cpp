@@ -42,7 +42,8 @@ ExrPicture read_picture(const std::string& path) {
     case FileKind::unknown:
       break;
   }
-  throw Error(path + ": neither OpenEXR nor Radiance HDR");
+  throw Error(path +
+              ": is neither OpenEXR nor Radiance HDR, whatever its name says; expected a light probe of one of these kinds");
 }
 
 ProbeLayout layout_by_shape(const std::string& path, const Image& image) {

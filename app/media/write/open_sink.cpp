@@ -45,7 +45,7 @@ const Container& container_of(const std::string& path) {
   for (const Container& container : kContainers) known += std::string(container.extension) + ", ";
   const std::string hint = extension == ".png" ? " (a PNG output is a sequence: its name needs a number field)" : "";
   throw UsageError("'" + path + "': unknown output '" + extension + "'" + hint + "; known are " + known +
-                   "a sequence such as 'out.%04d.png', and '-' for y4m on stdout");
+                   "sequences of .png or .exr such as 'out.%04d.png', and '-' for y4m on stdout");
 }
 
 VideoCodec codec_of(const std::string& path, const Container& container, const std::string& asked) {
@@ -96,7 +96,8 @@ std::string pixel_format_for(VideoCodec codec, std::string_view muxer, const Sou
 
 std::unique_ptr<MediaSink> open_sequence(const std::string& path, SequencePattern pattern, const std::string& source_location,
                                          const MediaSource& source, const SinkOptions& options) {
-  if (lower_extension(path) != ".png") throw UsageError("'" + path + "': sequences are written as .png");
+  if (lower_extension(path) != ".png")
+    throw UsageError("'" + path + "': sequences are written as .png, or as .exr, which is layers");
   check_output_sequence(pattern, source_location, source.info(), options);
   pixel_format_for(VideoCodec::png, "", source.info(), options);
   return std::make_unique<SequenceSink>(std::move(pattern), options);

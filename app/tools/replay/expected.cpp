@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "app/settings/toml_problem.hpp"
 #include "app/support/output_file.hpp"
 #include "catchlight/error.hpp"
 
@@ -33,7 +34,7 @@ ExpectedFigures read_expected(const std::string& path) {
   try {
     file = toml::parse_file(path);
   } catch (const toml::parse_error& error) {
-    fail(path, error.source(), std::string(error.description()));
+    fail(path, error.source(), toml_problem(error.description()));
   }
   for (const auto& [table_name, node] : file) {
     const toml::table* table = node.as_table();

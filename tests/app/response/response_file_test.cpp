@@ -167,7 +167,7 @@ TEST_F(ResponseFile, BadFilesAreRefusedByName) {
   EXPECT_THAT(refusal("c.cube", "LUT_1D_SIZE 2\nDOMAIN_MAX 4 4 4\n0 0 0\n1 1 1\n"), HasSubstr("DOMAIN_MAX"));
   EXPECT_THAT(refusal("d.cube", "LUT_1D_SIZE 2\n0 0 0\nx 1 1\n"), HasSubstr("d.cube:3"));
   EXPECT_THAT(refusal("a.yaml", "%YAML:1.0\n---\nx: 3\n"), HasSubstr("holds 0 matrices"));
-  EXPECT_THAT(refusal("b.yaml", "no yaml"), HasSubstr("b.yaml"));
+  EXPECT_THAT(refusal("b.yaml", "no yaml"), HasSubstr("b.yaml: is not YAML or XML as cv::FileStorage writes it"));
   EXPECT_THAT(refusal("empty.yaml", ""), HasSubstr("empty.yaml"));
   EXPECT_THAT(refusal("empty.cube", ""), HasSubstr("empty.cube"));
   EXPECT_THAT(refusal("one.csv", "0,0,0,0\n"), HasSubstr("holds 1 codes"));

@@ -10,6 +10,7 @@ namespace catchlight::app {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 using tests::message_of;
 using tests::read_scene;
@@ -189,6 +190,28 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(SceneFile, BrokenTomlNamesTheLine) {
   EXPECT_THAT(scene_refusal("[tag]\nid = = 3\n"), StartsWith("2:6: "));
+}
+
+/// What people write who do not write TOML every day: each is told in plain words what was expected.
+TEST(SceneFile, BrokenTomlIsExplainedInPlainWords) {
+  for (const auto& [text, expected] : std::initializer_list<std::pair<std::string, std::string>>{
+           {"hello world\n", "1:7: expected key = value, found 'w'"},
+           {"[tag\nid = 3\n", "1:5: expected ], as in [tag] or [[object]], found the end of the line"},
+           {"[tag]\nid =\n", "2:5: expected a value, found the end of the line"},
+           {"[tag]\nid = 3\nid = 4\n", "3:6: the key 'id' is there already; leave one of the two out"},
+           {"[tag]\nid = 3\n[tag]\n", "3:1: the table 'tag' is there already; put all of its keys under its first heading"},
+           {"[[object]]\nmesh = robot.glb\n", "2:8: expected a value: a number, true, false, or text in quotes"},
+           {"[[object]]\nmesh = \"C:\\shots\\a.glb\"\n", "write file names with / or in single quotes"},
+           {"[[object]]\nmesh = \"a.glb\n", "2:14: the closing quote is missing on this line"},
+           {"[tag]\nsize_m = 0,08\n", "2:11: expected the end of the line, found ','; decimals are written with a point: 0.08"},
+           {"[tag]\nsize_m = .08\n", "2:10: a number begins with a digit: 0.08"},
+           {"[tag]\nsize_m: 0.08\n", "2:7: expected key = value, found ':'"},
+           {"\xff\xfe[", "1:1: is not UTF-8 text; save it as UTF-8"},
+           {std::string(8, '\0'), "1:1: expected TOML, found what is no text"}}) {
+    const std::string refusal = scene_refusal(text);
+    EXPECT_THAT(refusal, HasSubstr(expected)) << text;
+    EXPECT_THAT(refusal, Not(HasSubstr("while parsing"))) << "the library's words";
+  }
 }
 
 TEST(SceneFile, RepeatedKeyNamesTheLine) {
