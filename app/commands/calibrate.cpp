@@ -116,6 +116,7 @@ void calibrate(const Options& options, const Given& given, Log& log) {
   if (!options.picture.empty()) check_output_path(options.picture, options.overwrite);
   if (!options.picture.empty() && !options.picture.ends_with(".png"))
     throw UsageError(options.picture + ": expected a name that ends in .png");
+  refuse_shared_files({options.output, options.picture}, {options.footage});
   const std::unique_ptr<CalibrationBoard> board = board_of(options, given);
   const LensModel most = lens_model(options.model);
   const CollectedViews collected = views_in(options, *board, log);

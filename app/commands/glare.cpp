@@ -68,6 +68,7 @@ void show(const Options& options, Log& log) {
   if (!is_exr && !options.output.ends_with(".png"))
     throw UsageError(options.output + ": expected a name that ends in .png (to look at) or .exr (the values)");
   check_output_path(options.output, options.overwrite);
+  refuse_same_file(options.output, options.aperture);
   const render::AperturePicture picture = render::aperture_picture(options.aperture);
   const render::AperturePlan plan = render::plan_aperture(options.optics, options.reach_px, picture.most_px);
   const render::ApertureFarField field(picture.draw(plan.picture_px), plan.transform_px);

@@ -46,7 +46,11 @@ void draw_frames(Session& session, FrameOutput& output, bool draws_debug) {
 void overlay(const Options& options, Context& context) {
   const FrameRange range = parse_frame_range(options.frames);
   check(options);
-  Session session(open_recording(options.recording, options.overrides),
+  Recording recording = open_recording(options.recording, options.overrides);
+  std::vector<std::string> inputs = files_of(recording);
+  inputs.push_back(options.track_in);
+  refuse_shared_files({options.output, options.track_out, options.report}, inputs);
+  Session session(std::move(recording),
                   {.range = range,
                    .track_file = options.track_in,
                    .is_causal = options.causal,

@@ -114,8 +114,7 @@ render::Probe lights_of(const render::Probe& probe, const render::Probe& rest) {
 void split(const ProbeArguments& arguments, Log& log) {
   check_part(arguments.lights);
   check_part(arguments.rest);
-  if (!arguments.lights.empty() && arguments.lights == arguments.rest)
-    throw UsageError(arguments.rest + ": --lights and --rest need two different files");
+  refuse_shared_files({arguments.lights, arguments.rest}, {arguments.input});
   std::optional<PendingFile> lights = pending_part(arguments.lights, arguments.overwrite);
   std::optional<PendingFile> rest = pending_part(arguments.rest, arguments.overwrite);
   const render::Probe probe = load(arguments, log);
@@ -132,6 +131,7 @@ void convert(const ProbeArguments& arguments, Log& log) {
   const render::ProbeLayout layout = render::probe_layout_from_name(arguments.layout_out);
   if (!arguments.output.ends_with(".exr") && !arguments.output.ends_with(".hdr"))
     throw UsageError(arguments.output + ": expected a name that ends in .exr or .hdr");
+  refuse_same_file(arguments.output, arguments.input);
   PendingFile output = pending_output(arguments.output, arguments.overwrite);
   render::save_probe(output.pending_path(), render::convert(load(arguments, log), layout, arguments.width_px));
   output.commit();
@@ -158,6 +158,7 @@ std::string sh_text(const ProbeArguments& arguments, const render::ShRgb& coeffi
 
 void write_sh(const ProbeArguments& arguments, Log& log) {
   if (!arguments.output.empty()) check_output_path(arguments.output, arguments.overwrite);
+  refuse_same_file(arguments.output, arguments.input);
   const std::string text = sh_text(arguments, render::project_to_sh(load(arguments, log), arguments.bands));
   if (arguments.output.empty())
     std::fputs(text.c_str(), stdout);
@@ -190,6 +191,7 @@ void check_png_output(const ProbeArguments& arguments) {
   if (!arguments.output.ends_with(".png"))
     throw UsageError(arguments.output + ": the preview is a PNG; give -o a name that ends in .png");
   check_output_path(arguments.output, arguments.overwrite);
+  refuse_same_file(arguments.output, arguments.input);
 }
 
 void write_ball(const ProbeArguments& arguments, Log& log) {

@@ -73,6 +73,9 @@ void merge(Options& options, bool is_tag_given, Log& log) {
   request.reflectance = reflectance_of(options.reflectance);
   request.layout = render::probe_layout_from_name(options.layout);
   read_tag(options, is_tag_given);
+  std::vector<std::string> inputs{options.scene, request.camera_file.value_or("")};
+  for (const std::vector<std::string>& view : request.views) inputs.insert(inputs.end(), view.begin(), view.end());
+  refuse_shared_files({options.output}, inputs);
   render::save_probe(output.pending_path(), merge_probe(request, log));
   output.commit();
 }

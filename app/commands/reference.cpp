@@ -63,7 +63,11 @@ void trace(const Options& options, Context& context) {
   check_extension(output);
   check_output_path(output, options.overwrite);
   const auto start = std::chrono::steady_clock::now();
-  Session session(open_recording(options.recording, options.overrides),
+  Recording recording = open_recording(options.recording, options.overrides);
+  std::vector<std::string> inputs = files_of(recording);
+  inputs.push_back(options.track_in);
+  refuse_shared_files({output}, inputs);
+  Session session(std::move(recording),
                   {.task = "find frame", .range = {options.frame, options.frame + 1}, .track_file = options.track_in},
                   context.log);
   const FrameJob job = viewed_frame(session, options.frame);

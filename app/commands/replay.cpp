@@ -96,7 +96,6 @@ std::string expected_path(const std::string& folder) {
 
 /// What can be refused before the footage is opened.
 void check_all(const Options& options, const std::vector<std::string>& folders) {
-  for (const std::string& folder : folders) check_comparable(folder, options.bless);
   if (!options.report.empty()) check_output_path(options.report, options.overwrite);
   make_output_folder(options.sheets);
   for (const std::string& folder : folders) {
@@ -106,6 +105,11 @@ void check_all(const Options& options, const std::vector<std::string>& folders) 
       check_output_path(expected, true);
     else if (fs::exists(expected))
       read_expected(expected);
+  }
+  for (const std::string& folder : folders) {
+    check_comparable(folder, options.bless);
+    refuse_shared_files({options.report}, files_of(open_recording(folder, options.overrides)));
+    check_recording(folder, options.overrides);
   }
 }
 

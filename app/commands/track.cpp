@@ -24,7 +24,11 @@ void track(const Options& options, Context& context) {
   check_track_format(options.output);
   check_output_path(options.output, options.overwrite);
   if (!options.report.empty()) check_output_path(options.report, options.overwrite);
-  Session session(open_recording(options.recording, options.overrides),
+  Recording recording = open_recording(options.recording, options.overrides);
+  std::vector<std::string> inputs = files_of(recording);
+  inputs.push_back(options.track_in);
+  refuse_shared_files({options.output, options.report}, inputs);
+  Session session(std::move(recording),
                   {.task = "track",
                    .range = range,
                    .track_file = options.track_in,

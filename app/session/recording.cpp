@@ -99,6 +99,7 @@ void choose_scene(Recording& recording, const RecordingOverrides& overrides) {
   std::optional<std::string> file = overrides.scene_file;
   if (!file && !recording.folder.empty()) file = if_exists(fs::path(recording.folder) / "scene.toml");
   if (!file) throw Error(recording.footage + ": no scene (" + where_expected(recording, "scene.toml") + "); pass --scene FILE");
+  recording.scene_file = file;
   recording.scene = read_scene_file(*file);
   std::set<std::string> options;
   for (const auto& [key, text] : overrides.parameters) {
@@ -124,6 +125,17 @@ Recording open_recording(const std::string& location, const RecordingOverrides& 
   choose_camera(recording, overrides);
   choose_scene(recording, overrides);
   return recording;
+}
+
+std::vector<std::string> files_of(const Recording& recording) {
+  const SceneSettings& scene = recording.scene;
+  std::vector<std::string> files{recording.footage};
+  for (const auto& file : {recording.scene_file, recording.camera_file, recording.poses_csv, recording.expected_toml})
+    if (file) files.push_back(*file);
+  for (const SceneSettings::Object& object : scene.objects) files.push_back(scene.resolve(object.mesh));
+  if (!scene.probe.image.empty()) files.push_back(scene.resolve(scene.probe.image));
+  for (const char* key : {"exposure.response", "glare.aperture"}) files.push_back(word_or_path(scene, key));
+  return files;
 }
 
 std::unique_ptr<MediaSource> open_footage(const Recording& recording, const WarningHandler& warn) {

@@ -28,7 +28,7 @@ struct Recording {
   std::string name;     ///< name of the folder, or of bare footage
   std::string folder;   ///< empty for bare footage
   std::string footage;  ///< what MediaSource::open takes
-  std::optional<std::string> camera_file;
+  std::optional<std::string> scene_file, camera_file;
   std::optional<double> fov_deg;  ///< where there is no camera file
   SceneSettings scene;
   std::optional<std::string> poses_csv, truth_folder, mask_folder, expected_toml;  ///< where the folder has them
@@ -38,6 +38,9 @@ struct Recording {
 /// scene.toml; or bare footage with the scene and the camera (or field of view) among the overrides. The footage itself is not
 /// opened. Throws Error that says what is missing and how to supply it, and UsageError for overrides that cannot be.
 Recording open_recording(const std::string& location, const RecordingOverrides& overrides = {});
+
+/// All files that it is read from and that it names, for outputs to leave alone.
+std::vector<std::string> files_of(const Recording& recording);
 
 /// The footage, read with the camera's response where the scene names one. Throws Error as MediaSource::open and load_response
 /// do.

@@ -63,6 +63,7 @@ Session::Session(Recording recording, SessionOptions options, Log& log)
 
 void Session::prepare() {
   renderer_.load();
+  renderer_.check_aperture();
   renderer_.open_renderer();
   const bool is_drawn =
       opened_track().finds_any(options_.range) || (recodes_every_frame(recording_.scene) && !options_.wants_layers);

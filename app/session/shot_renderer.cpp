@@ -8,6 +8,7 @@
 #include "catchlight/error.hpp"
 #include "render/cpu/cpu_compositor.hpp"
 #include "render/gl_compositor.hpp"
+#include "render/glare/aperture_picture.hpp"
 #include "render/surface_material.hpp"
 
 namespace catchlight::app {
@@ -65,6 +66,11 @@ const BuiltScene& ShotRenderer::load() {
   if (!is_loaded_) builder_.load(settings_, log_.warning_handler());
   is_loaded_ = true;
   return builder_.scene();
+}
+
+void ShotRenderer::check_aperture() const {
+  const std::string aperture = word_or_path(settings_, "glare.aperture");
+  if (aperture != "none") render::aperture_picture(aperture);
 }
 
 void ShotRenderer::open_renderer() {
@@ -144,7 +150,8 @@ PlanEntry ShotRenderer::reflection_entry() const {
   if (rays == 0) return {"reflection rays", "none", "quality.reflection_rays is 0: the probe alone is mirrored"};
   const std::string value = std::to_string(rays) + " over a rough lobe, 4 over a polished one";
   if (context_) return {"reflection rays", value, "in each pixel that may mirror the object"};
-  return {"reflection rays", value, "2 to 8 neighbours with much the same lobe share them; traced where the object may be mirrored"};
+  return {"reflection rays", value,
+          "2 to 8 neighbours with much the same lobe share them; traced where the object may be mirrored"};
 }
 
 std::vector<PlanEntry> ShotRenderer::plan() const {

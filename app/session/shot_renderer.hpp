@@ -38,6 +38,9 @@ class ShotRenderer {
   /// Chooses what draws, if that is not done yet. Where that is OpenGL, makes the context, or makes it current.
   void open_renderer();
 
+  /// Throws Error where glare.aperture names no picture: it is drawn by long after it could be told.
+  void check_aperture() const;
+
   /// The footage starts again: the exposure has adapted to nothing yet.
   void restart();
 

@@ -1,5 +1,6 @@
 #include "app/support/output_file.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -30,6 +31,17 @@ void refuse_same_file(const std::string& output, const std::string& input) {
   std::error_code ignored;
   if (fs::equivalent(output, input, ignored))
     throw UsageError("'" + output + "' is the input itself; choose another name for the output");
+}
+
+void refuse_shared_files(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
+  const auto place = [](const std::string& path) { return fs::weakly_canonical(fs::absolute(path)); };
+  for (auto output = outputs.begin(); output != outputs.end(); ++output) {
+    if (output->empty() || *output == "-") continue;
+    for (const std::string& input : inputs) refuse_same_file(*output, input);
+    const auto same = [&](const std::string& other) { return !other.empty() && place(other) == place(*output); };
+    if (std::any_of(outputs.begin(), output, same))
+      throw UsageError(*output + ": is named for two outputs; choose another name for one of them");
+  }
 }
 
 void make_output_folder(const std::string& folder) {

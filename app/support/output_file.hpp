@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "catchlight/util/pending_file.hpp"
 
@@ -17,6 +18,10 @@ void check_output_path(const std::string& path, bool overwrite);
 
 /// Throws UsageError where both names are one file's.
 void refuse_same_file(const std::string& output, const std::string& input);
+
+/// Throws UsageError where two of `outputs` are one file, or one of them is an input. What is no file is never one, be it empty,
+/// a pattern or an address.
+void refuse_shared_files(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
 
 /// Makes `folder`, for files yet to come, where it is missing. Throws Error where that fails.
 void make_output_folder(const std::string& folder);

@@ -39,6 +39,8 @@ void check(const MergeRequest& request) {
     throw UsageError(
         "several views need to know how they stand to each other: a tag beside the ball (--tag-size-m or --scene), or "
         "--view-yaw for each");
+  if (request.camera_file) tracking::read_camera_file(*request.camera_file);
+  for (const auto& view : request.views) check_photographs(view);
 }
 
 /// One view's own part of all exposure times.

@@ -15,11 +15,16 @@
 namespace catchlight::app {
 namespace {
 
-std::vector<std::uint8_t> bytes_of(const std::string& path) {
+std::ifstream opened(const std::string& path) {
   std::error_code ignored;
   std::ifstream in(path, std::ios::binary);
   if (!in || std::filesystem::is_directory(path, ignored))
     throw Error(path + ": cannot be opened; expected a photograph of a mirror ball");
+  return in;
+}
+
+std::vector<std::uint8_t> bytes_of(const std::string& path) {
+  std::ifstream in = opened(path);
   std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(in), {}};
   if (bytes.empty()) throw Error(path + ": is empty; expected a photograph of a mirror ball");
   return bytes;
@@ -77,6 +82,10 @@ double exposure_stated(const std::string& path, const std::vector<std::uint8_t>&
 }
 
 }  // namespace
+
+void check_photographs(const std::vector<std::string>& paths) {
+  for (const std::string& path : paths) opened(path);
+}
 
 ViewPictures read_view(const std::vector<std::string>& paths, const std::vector<double>& times_s) {
   Bracket bracket;

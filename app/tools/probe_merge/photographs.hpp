@@ -25,6 +25,9 @@ using Bracket = std::vector<Photograph>;
 /// One camera position: a bracket, or a picture that is scene-linear already.
 using ViewPictures = std::variant<Bracket, Image>;
 
+/// Throws Error naming a file that cannot be opened.
+void check_photographs(const std::vector<std::string>& paths);
+
 /// `times_s`: one for each of `paths`, or empty: as the files' EXIF says; a single photograph needs none. JPEG, PNG or TIFF with
 /// 8 or 16 bits; or one OpenEXR or Radiance HDR. Throws Error naming the file: not such a picture, of another size or depth than
 /// the first, without an exposure, with that of another.

@@ -8,10 +8,12 @@
 #include <set>
 
 #include "app/session/run_stages.hpp"
+#include "app/session/scene_files.hpp"
 #include "app/support/output_file.hpp"
 #include "app/tools/replay/replay_pictures.hpp"
 #include "app/tools/replay/sheet.hpp"
 #include "catchlight/error.hpp"
+#include "catchlight/util/text.hpp"
 #include "render/image/picture_file.hpp"
 #include "tracking/track_file.hpp"
 
@@ -27,6 +29,13 @@ class TruthFrames {
   explicit TruthFrames(std::string folder) : folder_(std::move(folder)) {}
 
   bool has(std::int64_t number) const { return fs::exists(path("truth", number)); }
+
+  /// Throws Error where a frame has no mask.
+  void check_masks() const {
+    for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(folder_) / "truth"))
+      if (const auto number = integer_from_text(entry.path().stem().string()); number && has(*number))
+        check_exists(path("mask", *number));
+  }
 
   void compare(const FrameJob& job) {
     const cv::Mat ours = composited_bgr(job), plate_bgr = bgr_of(job.image);
@@ -50,8 +59,12 @@ class TruthFrames {
     return fs::path(folder_) / kind / name;
   }
 
-  static cv::Mat read(const fs::path& path, const cv::Size& size) {
+  static void check_exists(const fs::path& path) {
     if (!fs::exists(path)) throw Error(path.string() + ": missing; every frame of truth/ needs its mask/");
+  }
+
+  static cv::Mat read(const fs::path& path, const cv::Size& size) {
+    check_exists(path);
     return read_bgr(path.string(), size);
   }
 
@@ -209,6 +222,16 @@ void check_comparable(const std::string& folder, bool bless) {
   if (bless || knows_truth(folder) || Baseline(folder).is_kept()) return;
   throw Error(folder + ": nothing to compare with: neither poses.csv nor truth/, and no run was kept; overlay it and look at " +
               "the result, then run replay with --bless, which keeps that in baseline/ (docs/replay.md)");
+}
+
+void check_recording(const std::string& folder, const RecordingOverrides& overrides) {
+  const Recording recording = open_recording(folder, overrides);
+  const std::unique_ptr<MediaSource> footage = open_footage(recording);
+  camera_for_footage(recording, footage->info().width_px, footage->info().height_px);
+  if (recording.poses_csv) tracking::read_track_file(*recording.poses_csv);
+  if (recording.truth_folder) TruthFrames(recording.folder).check_masks();
+  load_scene_probe(recording.scene, {});
+  load_objects(recording.scene, {});
 }
 
 ReplayResult replay_recording(const std::string& folder, const ReplayOptions& options, Log& log) {

@@ -47,6 +47,10 @@ bool knows_truth(const std::string& folder);
 /// Throws Error where there is nothing to hold the recording against and `bless` does not make it.
 void check_comparable(const std::string& folder, bool bless);
 
+/// Opens all that a replay will read but the frames of the footage. Throws Error as replay_recording does for what is missing or
+/// unreadable: masks, poses, probe, objects, camera.
+void check_recording(const std::string& folder, const RecordingOverrides& overrides);
+
 /// Truth has no grain, and glares only where the scene file says so itself (`glare.enabled = true`): both are off here otherwise.
 /// A baseline is drawn as overlay draws. Throws Error as overlay does, also for a truth frame that is missing its mask or has
 /// another size.

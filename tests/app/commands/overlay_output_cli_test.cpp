@@ -111,6 +111,59 @@ TEST_F(OverlayCommand, WhatStandsInTheWayOfAnOutputIsNoticedBeforeTheWork) {
   EXPECT_THAT(overlay(copy, layers, {"-y"}).error, HasSubstr("object.glb"));
 }
 
+/// Nor the files of the recording, where -y is given.
+TEST_F(OverlayCommand, NoOutputTakesTheNameOfAnotherOrOfAnInput) {
+  const std::string copy = copied_recording(1), scene = copy + "/scene.toml", before = read_text(scene);
+  const std::string taken = folder_.path("same.csv"), probe = copy + "/probe.exr", probe_before = read_text(probe);
+  expect_refused(overlay(copy, out_, {"--report", taken, "--track-out", taken}), out_, {"same.csv: is named for two outputs"}, 2);
+  expect_refused(overlay(copy, out_, {"-y", "--report", scene}), out_, {"scene.toml' is the input itself"}, 2);
+  expect_refused(run_catchlight({"track", copy, "-o", taken, "--report", taken}), taken, {"is named for two outputs"}, 2);
+  const std::vector<std::vector<std::string>> onto_probe{{"reference", copy, "--frame", "0", "-o", probe, "-y"},
+                                                         {"probe", "convert", probe, probe, "--layout", "latlong", "-y"},
+                                                         {"probe", "sh", probe, "-o", probe, "-y"},
+                                                         {"probe", "split", probe, "--rest", probe, "-y"},
+                                                         {"glare", "--aperture", probe, "-o", probe, "-y"},
+                                                         {"probe", "merge", probe, "-o", probe, "-y"}};
+  for (const auto& arguments : onto_probe) EXPECT_THAT(run_catchlight(arguments).error, HasSubstr("is the input itself"));
+  EXPECT_EQ(read_text(scene), before);
+  EXPECT_EQ(read_text(probe), probe_before);
+}
+
+/// Progress is told as soon as a frame is tracked: none is where nothing else was said.
+TEST_F(OverlayCommand, NamesThatAreWrongAreNoticedBeforeTheFootageIsTracked) {
+  const std::string copy = copied_recording(2), none = "/nowhere/none";
+  for (const char* option : {"--object.mesh", "--probe.image", "--glare.aperture", "--exposure.response", "--track", "--scene",
+                             "--camera", "--shader-dir"}) {
+    const CommandResult result = overlay(copy, out_, {option, none});
+    EXPECT_THAT(result.error, AllOf(::testing::StartsWith("catchlight: error: "), HasSubstr(none))) << option;
+  }
+}
+
+/// The last of many recordings is looked at before the first is replayed.
+TEST_F(OverlayCommand, ReplayLooksAtAllRecordingsFirst) {
+  const std::string copy = copied_recording(2), all = folder_.path("all");
+  fs::copy(recording() + "/poses.csv", copy + "/poses.csv");
+  fs::create_directories(all);
+  fs::copy(copy, all + "/a", fs::copy_options::recursive);
+  fs::rename(copy, all + "/b");
+  const auto refused = [&](const std::string& named) {
+    const CommandResult result = run_catchlight({"replay", all, "-o", folder_.path("sheets")});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.error, AllOf(::testing::StartsWith("catchlight: error: "), HasSubstr(named)));
+  };
+  fs::create_directories(all + "/b/truth");
+  std::ofstream(all + "/b/truth/0001.png") << "a frame";
+  refused("b/mask/0001.png: missing; every frame of truth/ needs its mask/");
+  fs::remove_all(all + "/b/truth");
+  std::ofstream(all + "/b/expected.toml") << "[mask\n";
+  refused("b/expected.toml:1");
+  fs::remove(all + "/b/expected.toml");
+  fs::remove(all + "/b/object.glb");
+  refused("b/object.glb");
+  fs::remove(all + "/b/poses.csv");
+  refused("b: nothing to compare with");
+}
+
 TEST_F(OverlayCommand, LayersNeverReplaceTheFootage) {
   const std::string copy = copied_recording(1), plates = folder_.path("plates");
   fs::create_directories(plates);

@@ -60,5 +60,19 @@ TEST(OutputFile, CheckLeavesNothing) {
   EXPECT_THAT(folder.names(), IsEmpty());
 }
 
+TEST(SharedFiles, AnOutputIsNoInputAndNoOtherOutput) {
+  const TemporaryFolder folder;
+  const std::string in = folder.write("in.csv", "mine"), out = folder.path("out.csv"), same = folder.path("./out.csv");
+  EXPECT_NO_THROW(refuse_shared_files({out, "", "-", "-"}, {in, "", "rtsp://camera.example/live", "/nowhere/%04d.png"}));
+  EXPECT_EQ(message_of<UsageError>([&] {
+              refuse_shared_files({"", out, same}, {in});
+            }),
+            same + ": is named for two outputs; choose another name for one of them");
+  EXPECT_THAT(message_of<UsageError>([&] {
+                refuse_shared_files({out, folder.path("./in.csv")}, {in});
+              }),
+              HasSubstr("in.csv' is the input itself"));
+}
+
 }  // namespace
 }  // namespace catchlight::app
