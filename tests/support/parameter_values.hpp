@@ -12,7 +12,7 @@ namespace catchlight::tests {
 /// A value that the parameter takes and that is not its default, where it has two.
 inline std::string other_value(const app::Parameter& parameter) {
   const std::string present = app::parameter_text(app::SceneSettings{}, parameter);
-  if (const auto* real = std::get_if<app::RealKind>(&parameter.kind)) return number_text(real->min);
+  if (const auto* real = std::get_if<app::RealKind>(&parameter.kind)) return plain_text(real->min);
   if (const auto* integer = std::get_if<app::IntegerKind>(&parameter.kind))
     return std::to_string(std::to_string(integer->max) == present ? integer->min : integer->max);
   if (std::holds_alternative<app::FlagKind>(parameter.kind)) return present == "true" ? "false" : "true";

@@ -238,7 +238,7 @@ TEST(ParameterFromText, ANumberThatNamesNothingIsRefused) {
             "--object[2].mesh: the scene has 2 objects, from --object[0].mesh to --object[1].mesh");
   EXPECT_EQ(refusal("tag.bundle[1].id", "3"), "--tag.bundle[1].id: the board has 1 further tag, which is --tag.bundle[0].id");
   EXPECT_EQ(refusal("object[1].tag_from_object.scale", "0"),
-            "--object[1].tag_from_object.scale is 0; expected a number from 1e-06 to 1e+06");
+            "--object[1].tag_from_object.scale is 0; expected a number from 0.000001 to 1000000");
   for (const char* key : {"glare[0].enabled", "object[-1].mesh", "object[x].mesh", "object[].mesh", "object[1.mesh",
                           "object]1[.mesh", "object.mesh[1]", "tag[1].bundle.id", "object[1].mass"})
     EXPECT_EQ(refusal(key, "a"), "--" + std::string(key) + ": there is no such parameter; `catchlight params` lists them");
