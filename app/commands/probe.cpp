@@ -89,7 +89,8 @@ void print_lights(const render::SplitProbe& split) {
     print(("light " + std::to_string(i)).c_str(), "from " + direction_text(light.direction));
     print("  solid angle", shown(light.solid_angle_sr) + " sr");
     print("  irradiance", shown(light.irradiance));
-    print("  share", shown(100 * light.share) + " % of the light on an average surface");
+    // ProbeLight::share is of what an average surface gets, which is a quarter of all that arrives.
+    print("  share", shown(100 * light.share / 4) + " % of all the probe's light");
     print("  samples", std::to_string(light.samples.size()));
   }
 }

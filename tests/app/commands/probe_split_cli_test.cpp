@@ -1,6 +1,8 @@
 // `catchlight probe split`: a probe as its lights and its rest.
 #include <gmock/gmock.h>
 
+#include <regex>
+
 #include "catchlight/image.hpp"
 #include "render/probe/probe.hpp"
 #include "tests/support/run_command.hpp"
@@ -79,6 +81,20 @@ TEST(ProbeSplit, PrintsTheLightsBrightestFirst) {
   EXPECT_THAT(result.output, HasSubstr("longitude 108.6"));
   EXPECT_LT(result.output.find("longitude 108.6"), result.output.find("longitude -74.29"));
   EXPECT_THAT(folder.names(), ElementsAre("probe.exr"));
+}
+
+/// Of all light there is no more than all: one lamp of the two gives 200 times the other's.
+TEST(ProbeSplit, SharesAreOfTheWholeProbesLight) {
+  const ProbeFile folder(two_lamps());
+  const std::string output = run_catchlight({"probe", "split", folder.path("probe.exr")}).output;
+  std::vector<double> shares;
+  const std::regex line("share +([0-9.]+) % of all the probe's light\n");
+  for (std::sregex_iterator match(output.begin(), output.end(), line), end; match != end; ++match)
+    shares.push_back(std::stod((*match)[1]));
+  ASSERT_EQ(shares.size(), 2U) << output;
+  EXPECT_GT(shares[0], 99);
+  EXPECT_GT(shares[1], 0.3);
+  EXPECT_LE(shares[0] + shares[1], 100);
 }
 
 TEST(ProbeSplit, EvenLightHasNoLights) {
