@@ -114,7 +114,10 @@ void add_recording_options(CLI::App& command, const Context& context, std::strin
       .add_option("RECORDING", location,
                   "Folder with footage, camera.yaml and scene.toml; or a video, a %04d pattern, a camera, a stream")
       ->required();
-  command.add_option("--scene", overrides.scene_file, "Scene file, instead of the recording's scene.toml")->type_name("FILE");
+  command
+      .add_option("--scene", overrides.scene_file,
+                  "Scene file, instead of the recording's scene.toml; none is needed where options say what it would")
+      ->type_name("FILE");
   command.add_option("--camera", overrides.camera_file, "Camera file, instead of the recording's camera.yaml")->type_name("FILE");
   command.add_option("--fov", overrides.fov_deg, "Horizontal field of view of a camera that is not calibrated")
       ->type_name("DEGREES");

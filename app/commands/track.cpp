@@ -66,7 +66,7 @@ void set_up_track(CLI::App& command, Context& context) {
   command.add_flag("--allow-lost", options->allow_lost, "succeed also where the tag is never found");
   command.add_option("--report", options->report, "write what was done and how long it took, JSON");
   show_examples(command, {"catchlight track recordings/matte -o track.csv",
-                          "catchlight track clip.mp4 --camera camera.yaml --scene scene.toml -o camera.chan"});
+                          "catchlight track clip.mp4 --fov 60 --tag.id 12 --tag.size_m 0.14 -o camera.chan"});
   command.callback([options, &context] { track(*options, context); });
 }
 

@@ -1,5 +1,6 @@
 #include "app/session/recording.hpp"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "app/response/response_file.hpp"
@@ -95,12 +96,23 @@ void choose_camera(Recording& recording, const RecordingOverrides& overrides) {
                 "); pass --camera FILE, or --fov DEGREES where it is not calibrated");
 }
 
+/// Options can say all that a scene file would. The tag's number and size have to be among them: a default would be a guess at
+/// the print in the footage, and at how large everything is.
+bool describe_tag(const RecordingOverrides& overrides) {
+  const auto gives = [&](const std::string& key) {
+    return std::ranges::any_of(overrides.parameters, [&](const auto& parameter) { return parameter.first == key; });
+  };
+  return gives("tag.id") && gives("tag.size_m");
+}
+
 void choose_scene(Recording& recording, const RecordingOverrides& overrides) {
-  std::optional<std::string> file = overrides.scene_file;
-  if (!file && !recording.folder.empty()) file = if_exists(fs::path(recording.folder) / "scene.toml");
-  if (!file) throw Error(recording.footage + ": no scene (" + where_expected(recording, "scene.toml") + "); pass --scene FILE");
-  recording.scene_file = file;
-  recording.scene = read_scene_file(*file);
+  recording.scene_file = overrides.scene_file;
+  if (!recording.scene_file && !recording.folder.empty())
+    recording.scene_file = if_exists(fs::path(recording.folder) / "scene.toml");
+  if (!recording.scene_file && !describe_tag(overrides))
+    throw Error(recording.footage + ": no scene (" + where_expected(recording, "scene.toml") +
+                "); pass --scene FILE, or say it by options, --tag.id NUMBER and --tag.size_m METRES at least");
+  if (recording.scene_file) recording.scene = read_scene_file(*recording.scene_file);
   std::set<std::string> options;
   for (const auto& [key, text] : overrides.parameters) {
     set_parameter_from_text(recording.scene, key, text);

@@ -35,7 +35,8 @@ struct Recording {
 };
 
 /// Opens what is at `location`: a folder with `video.{mp4,mkv,mov,avi}` or `plate/%04d.{png,jpg,exr}`, camera.yaml and
-/// scene.toml; or bare footage with the scene and the camera (or field of view) among the overrides. The footage itself is not
+/// scene.toml; or bare footage with the scene (or parameters that say what it would) and the camera (or field of view) among the
+/// overrides. The footage itself is not
 /// opened. Throws Error that says what is missing and how to supply it, and UsageError for overrides that cannot be.
 Recording open_recording(const std::string& location, const RecordingOverrides& overrides = {});
 

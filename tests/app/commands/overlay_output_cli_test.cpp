@@ -164,6 +164,24 @@ TEST_F(OverlayCommand, ReplayLooksAtAllRecordingsFirst) {
   refused("b: nothing to compare with");
 }
 
+TEST_F(OverlayCommand, OptionsCanSayAllThatASceneFileSays) {
+  const std::string copy = copied_recording(2), clip = copy + "/video.mp4", camera = copy + "/camera.yaml";
+  const std::vector<std::string> tag{"--camera", camera, "--tag.id", "0", "--tag.size_m", "0.08"};
+  std::vector<std::string> options = tag;
+  for (const std::string& option :
+       {std::string("--object.mesh"), copy + "/object.glb", std::string("--probe.image"), copy + "/probe.exr",
+        std::string("--object.tag_from_object.rotation_deg"), std::string("90,0,12")})
+    options.push_back(option);
+  EXPECT_EQ(overlay(copy, out_).exit_code, 0);
+  const CommandResult without = overlay(clip, folder_.path("options.mkv"), options);
+  EXPECT_EQ(without.exit_code, 0) << without.error;
+  EXPECT_TRUE(read_text(folder_.path("options.mkv")) == read_text(out_));
+  EXPECT_THAT(overlay(clip, folder_.path("none.mkv"), tag).error, AllOf(HasSubstr("no light"), HasSubstr("--probe.image FILE")));
+  std::vector<std::string> track{"track", clip, "-o", folder_.path("track.csv")};
+  track.insert(track.end(), tag.begin(), tag.end());
+  EXPECT_EQ(run_catchlight(track).exit_code, 0);
+}
+
 TEST_F(OverlayCommand, LayersNeverReplaceTheFootage) {
   const std::string copy = copied_recording(1), plates = folder_.path("plates");
   fs::create_directories(plates);

@@ -104,7 +104,8 @@ TEST(RecordingFolder, WithoutSceneSaysWhatSuppliesIt) {
   const RecordingFolder folder;
   std::filesystem::remove(folder.path("scene.toml"));
   EXPECT_EQ(message_of<Error>([&] { open_recording(folder.path()); }),
-            folder.path("video.mp4") + ": no scene (expected " + folder.path("scene.toml") + "); pass --scene FILE");
+            folder.path("video.mp4") + ": no scene (expected " + folder.path("scene.toml") +
+                "); pass --scene FILE, or say it by options, --tag.id NUMBER and --tag.size_m METRES at least");
 }
 
 TEST(BareFootage, TakesSceneAndCameraFromTheOverrides) {
@@ -118,6 +119,29 @@ TEST(BareFootage, TakesSceneAndCameraFromTheOverrides) {
   EXPECT_EQ(recording.folder, "");
   EXPECT_EQ(recording.footage, clip);
   EXPECT_EQ(recording.scene.tag.id, 5);
+}
+
+TEST(BareFootage, NeedsNoSceneFileWhereOptionsDescribeTheTag) {
+  const RecordingFolder folder;
+  RecordingOverrides overrides = with({{"tag.id", "12"}, {"tag.size_m", "0.14"}, {"probe.image", "room.exr"}});
+  overrides.fov_deg = 60;
+  const Recording recording = open_recording(folder.path("video.mp4"), overrides);
+  EXPECT_EQ(recording.scene_file, std::nullopt);
+  EXPECT_EQ(recording.scene.tag.id, 12);
+  EXPECT_EQ(recording.scene.tag.size_m, 0.14);
+  EXPECT_EQ(recording.scene.tag.family, "tag36h11");
+  EXPECT_EQ(recording.scene.resolve(recording.scene.probe.image), std::filesystem::absolute("room.exr"));
+}
+
+/// A size that nobody gave would make everything as many times too large as the print is not 8 cm wide.
+TEST(BareFootage, WithoutSceneFileTheTagIsNotGuessed) {
+  const RecordingFolder folder;
+  for (const char* key : {"tag.id", "tag.size_m"}) {
+    RecordingOverrides overrides = with({{key, "1"}});
+    overrides.fov_deg = 60;
+    EXPECT_THAT(message_of<Error>([&] { open_recording(folder.path("video.mp4"), overrides); }),
+                HasSubstr("--tag.id NUMBER and --tag.size_m METRES at least"));
+  }
 }
 
 TEST(BareFootage, PatternsCamerasAndStreamsAreNotLookedUpAsFiles) {
