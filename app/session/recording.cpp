@@ -118,7 +118,7 @@ void choose_scene(Recording& recording, const RecordingOverrides& overrides) {
     set_parameter_from_text(recording.scene, key, text);
     options.insert(key);
   }
-  // A look that is an option goes before what the scene file sets, as options do.
+  // A look that is an option overrides what the scene file sets, as options do.
   apply_look(recording.scene, options.contains("look") ? options : recording.scene.by_hand);
   recording.scene.probe.strict = overrides.strict;
   if (!overrides.shader_folder.empty()) {

@@ -131,8 +131,8 @@ std::vector<Parameter> bloom_and_streak_parameters() {
       {"glare.enabled", "", passes, "What exceeds the sensor's white spills as bloom and streaks.",
        FlagKind{[](auto& s) { return &s.glare.enabled; }}},
       {"glare.threshold", "", passes,
-       "The lens spills light above this exposed linear value, where 1 is the sensor's white; from one and a half times the "
-       "value on, all of a highlight spills.",
+       "A highlight glares where it is brighter than this exposed linear value (1 is the sensor's white), and with all of its "
+       "light where it is brighter than one and a half times the value.",
        RealKind{[](auto& s) { return &s.glare.threshold; }, 0, 1000, logarithmic, 0.01}},
       {"glare.brightest", "", passes,
        "A highlight's glare tends to that of this exposed linear value, however bright the highlight is.",
@@ -169,8 +169,7 @@ std::vector<Parameter> emission_and_aperture_parameters() {
        "What the object's own materials emit has a star of this many arms; 0 takes that of its reflections.",
        IntegerKind{[](auto& s) { return &s.glare.emitter_directions; }, 0, 16}},
       {"glare.streak_passes", "", passes,
-       "A streak is drawn in this many passes of four samples, which reach 4 to that power texels; 0 draws as many as can be "
-       "seen.",
+       "Streaks are drawn in this many passes. Each one more lets them reach four times as far; 0 takes as many as can be seen.",
        IntegerKind{[](auto& s) { return &s.glare.streak_passes; }, 0, 6}},
       {"glare.grid_rows", "", passes,
        "Glare is computed on a grid of this many rows over the whole frame; its texels are never smaller than a pixel.",
@@ -195,26 +194,29 @@ std::vector<Parameter> lens_parameters() {
   using enum ChangeCost;
   return {
       {"lens.noise", "", view,
-       "The virtual layer gets the footage's grain, as measured on the tag; \"auto\" adds it where it is more than rounding's "
-       "own.",
+       "Object and shadow get the footage's grain, as measured on the tag; \"auto\" adds it where it is more than the rounding "
+       "of codes makes.",
        SwitchKind{[](auto& s) { return &s.lens.noise; }}},
       {"lens.motion_blur", "", view,
-       "The virtual layer is blurred along the tag's motion; \"auto\" does so where the tag's own edges are blurred along it.",
+       "Object and shadow are blurred along their motion while the shutter is open; \"auto\" does so where the tag's edges are "
+       "softer along its motion than across.",
        SwitchKind{[](auto& s) { return &s.lens.motion_blur; }}},
       {"lens.defocus", "", view,
-       "The virtual layer is blurred as the tag's edges are, apart from motion; \"auto\" does so where they are.",
+       "Object and shadow are as much out of focus as the tag; \"auto\" does so where the tag's edges are softer than a pixel "
+       "makes them.",
        SwitchKind{[](auto& s) { return &s.lens.defocus; }}},
-      {"lens.distortion", "", view, "The virtual layer is bent as the camera file says; \"auto\" is on.",
+      {"lens.distortion", "", view, "Object and shadow are bent by the lens as the camera file says; \"auto\" is on.",
        SwitchKind{[](auto& s) { return &s.lens.distortion; }}},
       {"lens.shutter", "", view,
-       "The shutter is open for this share of the frame's interval, which sets the motion blur; 0 measures it on the tag.",
+       "The shutter is open for this share of the time from frame to frame, which sets the length of the motion blur (0.5 is 180 "
+       "degrees); 0 measures it on the tag.",
        RealKind{[](auto& s) { return &s.lens.shutter; }, 0, 1}},
       {"lens.vignetting", "", view,
-       "The virtual layer darkens towards the corners as the camera file's `vignetting` says; \"auto\" is on.",
+       "The object is darker towards the picture's corners, as the camera file's `vignetting` says; \"auto\" is on.",
        SwitchKind{[](auto& s) { return &s.lens.vignetting; }}},
       {"lens.chroma_subsampling", "", view,
-       "The virtual layer gets the footage's own resolution of colour; false gives it all that the output can hold, and \"auto\" "
-       "is on.",
+       "Object and shadow get the footage's resolution of colour (as in 4:2:0); false gives them all that the output can hold, "
+       "and \"auto\" is on.",
        SwitchKind{[](auto& s) { return &s.lens.chroma_subsampling; }}},
   };
 }

@@ -7,14 +7,15 @@ constexpr const char* kIntroduction = R"(# Parameters of a scene
 
 Made by `catchlight params --markdown`; a test holds this page equal to its output.
 
-Every parameter is a key of the scene file and an option of the commands that take a recording: `streak_strength = 0.1` under
-`[glare]`, or `--glare.streak_strength 0.1`. Options go before the scene file, the scene file before the defaults.
+Every parameter is a key of the scene file and an option of the commands that take a recording: `streak_strength = 0.1`
+under `[glare]`, or `--glare.streak_strength 0.1`. An option overrides the scene file, and the scene file overrides the
+default.
 
-In the scene file `[[object]]` may be repeated, and so may `[[tag.bundle]]`, for the further tags of a board. As options, their keys
-mean the only one, or with a number, counted from 0, any: `--object.mesh a.glb`, `--object[1].tag_from_object.scale 2`.
-`tag_from_object` is a table, `{ translation_m = [x, y, z], rotation_deg = [x, y, z], scale = s }`, or
-`{ matrix = [[...], [...], [...]] }`, 3 rows of 4. Options write three numbers as `0.8,0.8,0.8`. File names are relative to the scene
-file; in options, to the working folder.
+In the scene file `[[object]]` may be repeated, and so may `[[tag.bundle]]`, for the further tags of a board. As
+options, their keys mean the only one, or with a number, counted from 0, any: `--object.mesh a.glb`,
+`--object[1].tag_from_object.scale 2`. `tag_from_object` is a table, `{ translation_m = [x, y, z], rotation_deg = [x, y,
+z], scale = s }`, or `{ matrix = [[...], [...], [...]] }`, 3 rows of 4. Options write three numbers as `0.8,0.8,0.8`.
+File names are relative to the scene file; in options, to the working folder.
 
 **Cost** is what a change asks to be done again, in a shot that is open:
 

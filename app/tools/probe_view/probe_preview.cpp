@@ -182,9 +182,8 @@ cv::Mat probe_preview(const render::Probe& probe, double yaw_deg, double ev, int
       std::vector<cv::Mat>{captioned(mirror, "mirror ball, seen from tag -y"), captioned(matte, "matte ball, seen from tag -y"),
                            captioned(plan(painter, side), "from above: the light around the tag")},
       balls);
-  cv::vconcat(
-      captioned(panorama(painter, 3 * side), "what is around the tag; in the middle, what the camera's back is turned to"), balls,
-      picture);
+  cv::vconcat(captioned(panorama(painter, 3 * side), "all around, as seen from the tag; crosses mark where its axes point"),
+              balls, picture);
   return picture;
 }
 
