@@ -91,7 +91,7 @@ std::vector<std::string> files_of_objects(const SceneSettings& settings) {
 
 /// `files`: those that the objects were read from.
 std::string mesh_key(const SceneSettings& settings, const std::vector<std::string>& files) {
-  std::string key;
+  std::string key = name_of(settings.receiver.plane) + std::string("\n");
   for (const std::string& file : files) key += file_key(file);
   for (const SceneSettings::Object& object : settings.objects) {
     key += settings.resolve(object.mesh) + '\n';

@@ -23,7 +23,7 @@ namespace catchlight::app {
 /// The parts of a scene that take time to make. Each depends on those before it that its comment names.
 enum class ScenePart {
   probe,            ///< the probe's file
-  mesh,             ///< the objects' files and places
+  mesh,             ///< the objects' files and places, and whether a plane hides what is below it
   receiver_albedo,  ///< probe, how it lies, mesh
   transfer,         ///< mesh, receiver's albedo, quality: the bake
   reflections,      ///< probe, light frame: the prefilter

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "catchlight/util/text.hpp"
 #include "render/mesh/bounds.hpp"
 #include "render/mesh/mesh_file.hpp"
 
@@ -13,6 +14,26 @@ namespace {
 constexpr double kEdgesAcrossDiagonal = 24;
 constexpr std::size_t kMaxVertices = 200'000;
 
+/// An object that reaches less than this share of its size below the tag's plane stands on it: that is rounding.
+constexpr float kRounding = 1e-4f;
+
+/// It may sink by this share of its size without a word.
+constexpr float kQuietlySunk = 0.01f;
+
+constexpr const char* kAdvice = "raise it by tag_from_object.translation_m, or let receiver.plane be \"none\"";
+
+/// The tag's plane is opaque: what is below is not there.
+void hide_below_plane(const SceneSettings::Object& object, render::Mesh& part, const WarningHandler& warn) {
+  const render::Bounds bounds = render::bounds_of(part);
+  const float depth_m = -bounds.min_m.z;
+  if (!(depth_m > kRounding * bounds.diagonal_m())) return;
+  part = render::upper_half(part);
+  if (depth_m > kQuietlySunk * bounds.diagonal_m() && warn) {
+    warn(object.mesh + ": the object reaches " + length_text(depth_m) + " below the tag, whose plane hides " +
+         (part.indices.empty() ? "all of it" : "that part of it") + ": " + kAdvice);
+  }
+}
+
 /// The camera's up is -y, and it looks along probe -z.
 const glm::dmat3 kCameraFromUpright(glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0, 0, -1));
 
@@ -22,8 +43,13 @@ render::Mesh load_objects(const SceneSettings& settings, const WarningHandler& w
   if (settings.objects.empty())
     throw Error("the scene has no object: give an [[object]] in the scene file, or --object.mesh FILE");
   render::Mesh mesh;
-  for (const SceneSettings::Object& object : settings.objects)
-    render::append(mesh, render::transformed(render::load_mesh(settings.resolve(object.mesh), warn), object.tag_from_object()));
+  for (const SceneSettings::Object& object : settings.objects) {
+    render::Mesh part = render::transformed(render::load_mesh(settings.resolve(object.mesh), warn), object.tag_from_object());
+    if (settings.receiver.plane == ReceiverPlane::tag) hide_below_plane(object, part, warn);
+    render::append(mesh, part);
+  }
+  if (mesh.indices.empty())
+    throw Error("nothing of the scene's objects is above the tag, whose plane hides what is below: " + std::string(kAdvice));
   const double diagonal_m = render::bounds_of(mesh).diagonal_m();
   render::subdivide_long_edges(mesh, diagonal_m / kEdgesAcrossDiagonal, std::max(kMaxVertices, mesh.vertices.size()));
   return mesh;

@@ -10,7 +10,8 @@
 
 namespace catchlight::app {
 
-/// The objects in the tag frame as one mesh, fine enough for light kept at its vertices. Throws Error where the scene has none,
+/// The objects in the tag frame as one mesh, fine enough for light kept at its vertices. What lies below a receiver is not
+/// there; a warning says how far an object reaches below it. Throws Error where the scene has none, where nothing is left of it,
 /// and as render::load_mesh.
 render::Mesh load_objects(const SceneSettings& settings, const WarningHandler& warn);
 

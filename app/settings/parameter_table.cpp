@@ -69,7 +69,8 @@ std::vector<Parameter> object_parameters() {
       {"object.shading", "", mesh,
        "The object is lit in this way: \"prt\" is precomputed radiance transfer, with mirror reflections.",
        ChoiceKind{[](auto& s, std::size_t i) { return &s.objects[i].shading; }}},
-      {"receiver.plane", "", bake, "The object's shadow falls on this real surface: the tag's plane, or none.",
+      {"receiver.plane", "", mesh,
+       "The object's shadow falls on this real surface, which hides what lies below it: the tag's plane, or none.",
        ChoiceKind{[](auto& s) { return &s.receiver.plane; }}},
       {"receiver.albedo", "", bake,
        "The surface reflects this share of red, green and blue light (linear). It counts where the footage is clipped, and where "

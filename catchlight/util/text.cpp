@@ -37,6 +37,11 @@ std::string fixed_text(double value, int digits) {
   return {buffer.data(), result.ptr};
 }
 
+std::string length_text(double length_m) {
+  const double length_mm = length_m * 1000;
+  return length_mm < 999.5 ? fixed_text(length_mm, length_mm < 9.95 ? 1 : 0) + " mm" : fixed_text(length_m, 2) + " m";
+}
+
 std::optional<double> real_from_text(std::string_view text) {
   return number_from_text<double>(text);
 }

@@ -19,6 +19,9 @@ std::string plain_text(double value);
 /// The number with that many digits after the point, never an exponent.
 std::string fixed_text(double value, int digits);
 
+/// "83 mm" below a metre, "8.3 mm" below a centimetre, else "1.25 m".
+std::string length_text(double length_m);
+
 /// The whole of `text` as a number, else empty. No leading '+' or spaces; "inf" and "nan" are numbers here.
 std::optional<double> real_from_text(std::string_view text);
 std::optional<std::int64_t> integer_from_text(std::string_view text);

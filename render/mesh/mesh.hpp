@@ -40,6 +40,9 @@ Mesh transformed(const Mesh& mesh, const glm::dmat4& tag_from_object);
 /// Appends `other`; materials are kept apart.
 void append(Mesh& mesh, const Mesh& other);
 
+/// What of the mesh lies above z = 0, with the vertices of that only; triangles that cross the plane end on it.
+Mesh upper_half(const Mesh& mesh);
+
 /// Splits edges longer than `max_edge_m` (shared edges alike, so no cracks), keeping per-vertex lighting honest on long edges.
 /// Stops before exceeding `max_vertices`.
 void subdivide_long_edges(Mesh& mesh, double max_edge_m, std::size_t max_vertices);

@@ -28,9 +28,9 @@ class ObjReader {
     while (lines_.next()) read_line();
     if (imported_.mesh.indices.empty()) {
       throw Error(path_ + ": holds no faces" +
-                  (positions_m_.empty()
-                       ? "; expected Wavefront OBJ, with lines that begin with \"v\" and \"f\""
-                       : ", only " + std::to_string(positions_m_.size()) + " points; expected lines such as \"f 1 2 3\""));
+                  (positions_m_.empty() ? "; expected Wavefront OBJ, with lines that begin with \"v\" and \"f\""
+                                        : ", only " + std::to_string(positions_m_.size()) +
+                                              " points; expected triangles or polygons, in lines such as \"f 1 2 3\""));
     }
     unused_.report(path_, warn_);
     return std::move(imported_);

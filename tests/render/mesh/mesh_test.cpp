@@ -201,6 +201,27 @@ TEST(Transformed, MovesPointsAndKeepsNormalsPerpendicularAndOutward) {
                Error);
 }
 
+TEST(UpperHalf, OfABallIsADome) {
+  // An octahedron whose belt goes up and down.
+  Mesh ball;
+  ball.materials.emplace_back();
+  const glm::vec3 corners[] = {{1, 0, 0.1f}, {0, 1, -0.1f}, {-1, 0, 0.1f}, {0, -1, -0.1f}, {0, 0, 1}, {0, 0, -1}};
+  for (const glm::vec3& corner : corners) ball.vertices.push_back({corner, glm::normalize(corner)});
+  ball.indices = {0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4, 1, 0, 5, 2, 1, 5, 3, 2, 5, 0, 3, 5};
+  ball.triangle_material.assign(8, 0);
+  const Mesh dome = upper_half(ball);
+  double flux = 0;  // what flows out through a closed surface is nothing, so this is what the missing bottom takes
+  for (std::size_t i = 0; i < dome.indices.size(); i += 3) {
+    const auto corner = [&](int k) { return glm::dvec3(dome.vertices[dome.indices[i + k]].position_m); };
+    flux += glm::cross(corner(1) - corner(0), corner(2) - corner(0)).z / 2;
+  }
+  std::size_t rim = 0;
+  for (const Vertex& vertex : dome.vertices) rim += vertex.position_m.z == 0;
+  EXPECT_EQ(rim, 8u) << "four edges of the belt, and four below two of its corners, each crossed once";
+  EXPECT_NEAR(flux, 20.0 / 11, 1e-6) << "the rim is an octagon with corners at 10/11 and (1/2, 1/2)";
+  for (const std::uint16_t material : dome.triangle_material) EXPECT_EQ(material, 0);
+}
+
 TEST(Bounds, HoldTheTrianglesAndNothingElse) {
   Mesh mesh = box({-1, 2, 0.5f}, {3, 4, 6});
   mesh.vertices.push_back({{100, 100, 100}, {0, 0, 1}});  // no triangle's
