@@ -11,6 +11,7 @@
 
 #include "catchlight/image.hpp"
 #include "render/mesh/mesh.hpp"
+#include "render/mesh/unused_features.hpp"
 
 namespace catchlight::render::gltf {
 
@@ -33,6 +34,12 @@ std::span<const unsigned char> bytes_of(const Document& document, int buffer_vie
 /// Remembers the bytes of images in files of their own, to be decoded when needed; those in buffers are where they are.
 bool keep_image_bytes(tinygltf::Image* image, int index, std::string* error, std::string* warning, int width, int height,
                       const unsigned char* bytes, int size, void* user);
+
+/// Adds what the document holds and import_gltf does not use: of its materials, meshes, nodes and extensions.
+void note_unused(const Document& document, UnusedFeatures& unused);
+
+/// Throws Error where the document cannot be drawn without an extension that is not known.
+void check_required_extensions(const Document& document);
 
 /// The material's factors only, extensions specular, ior and emissive_strength included.
 Material material_of(const tinygltf::Material& source);

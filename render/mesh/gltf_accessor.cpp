@@ -113,9 +113,7 @@ std::vector<float> read_floats(const Document& document, int index, int componen
   if (size <= 0 || size > 4 || file_components < components || accessor.count > kMaxElements) {
     refuse(document, "accessor " + std::to_string(index) + " does not hold vectors of " + std::to_string(components));
   }
-  if (accessor.bufferView < 0 && !accessor.sparse.isSparse)
-    refuse(document, "accessor " + std::to_string(index) + " has no data");
-  std::vector<float> values(accessor.count * components);
+  std::vector<float> values(accessor.count * components);  // zeros where no buffer view is named (glTF 2.0, 5.1.1)
   if (accessor.bufferView >= 0) {
     const Elements source = elements(document, accessor.bufferView, accessor.byteOffset, accessor.count,
                                      static_cast<std::size_t>(size) * file_components, true);
@@ -133,6 +131,7 @@ std::vector<std::uint32_t> read_indices(const Document& document, int index) {
   const int size = tinygltf::GetComponentSizeInBytes(accessor.componentType);
   if (size <= 0 || accessor.type != TINYGLTF_TYPE_SCALAR)
     refuse(document, "accessor " + std::to_string(index) + " holds no indices");
+  if (accessor.bufferView < 0) refuse(document, "accessor " + std::to_string(index) + " holds no indices");
   const Elements source = elements(document, accessor.bufferView, accessor.byteOffset, accessor.count, size, true);
   std::vector<std::uint32_t> indices(accessor.count);
   for (std::size_t i = 0; i < indices.size(); ++i) indices[i] = unsigned_component(document, source[i], accessor.componentType);

@@ -51,12 +51,13 @@ int wrapped(int i, int size, int mode) {
 Image decode(const Document& document, const tinygltf::Image& source) {
   const std::span<const unsigned char> bytes =
       source.bufferView >= 0 ? bytes_of(document, source.bufferView) : std::span(source.image);
+  const std::string name = source.uri.empty() ? source.name : source.uri;
+  if (bytes.empty() && !source.uri.empty()) throw Error(document.path + ": its texture \"" + name + "\" is not there");
   cv::Mat decoded;
   try {
     decoded = decode_picture(bytes, PictureDepth::eight_bits);
   } catch (const Error& error) {
-    throw Error(document.path + ": the texture \"" + (source.uri.empty() ? source.name : source.uri) +
-                "\" cannot be decoded: it " + error.what());
+    throw Error(document.path + ": the texture \"" + name + "\" cannot be decoded: it " + error.what());
   }
   Image image(decoded.cols, decoded.rows);
   for (int y = 0; y < image.height; ++y) {
@@ -134,7 +135,13 @@ std::optional<ColorTexture> base_color_texture(const Document& document, const t
   if (info.index < 0) return std::nullopt;
   const tinygltf::Model& model = document.model;
   const auto within = [](int index, const auto& list) { return index >= 0 && static_cast<std::size_t>(index) < list.size(); };
-  if (!within(info.index, model.textures) || !within(model.textures[info.index].source, model.images)) {
+  const bool is_there = within(info.index, model.textures);
+  if (is_there && model.textures[info.index].source < 0 && !model.textures[info.index].extensions.empty()) {
+    throw Error(document.path + ": the base colour texture of material \"" + material.name + "\" is in the format of " +
+                model.textures[info.index].extensions.begin()->first +
+                ", which is not read; export with textures as PNG or JPEG");
+  }
+  if (!is_there || !within(model.textures[info.index].source, model.images)) {
     throw Error(document.path + ": the base colour texture of material \"" + material.name + "\" has no picture");
   }
   ColorTexture texture;

@@ -16,18 +16,31 @@ namespace {
 
 using gltf::Document;
 
-constexpr std::array<const char*, 6> kKnownExtensions{"KHR_materials_specular",          "KHR_materials_ior",
-                                                      "KHR_materials_emissive_strength", "KHR_texture_transform",
-                                                      "KHR_mesh_quantization",           "KHR_materials_unlit"};
+/// Blank space before the first brace may be this long.
+constexpr std::size_t kSearchedBytes = 4096;
+
+/// Whether a file that may be glTF is a binary one; a text begins with a brace.
+bool is_binary(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::array<char, 4> magic{};
+  in.read(magic.data(), magic.size());
+  if (std::string_view(magic.data(), magic.size()) == "glTF") return true;
+  in.clear();
+  in.seekg(0);
+  std::string text(kSearchedBytes, '\0');
+  in.read(text.data(), kSearchedBytes);
+  const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");  // a byte-order mark is read over
+  if (first == std::string::npos || text[first] != '{')
+    throw Error(path + ": is no glTF, whatever its name says; expected a file that begins with \"glTF\" or a brace");
+  return false;
+}
 
 Document open(const std::string& path) {
   Document document;
   document.path = path;
   tinygltf::TinyGLTF loader;
   loader.SetImageLoader(&gltf::keep_image_bytes, nullptr);
-  std::array<char, 4> magic{};
-  std::ifstream(path, std::ios::binary).read(magic.data(), magic.size());
-  const bool binary = std::string(magic.data(), 4) == "glTF";
+  const bool binary = is_binary(path);
   std::string error, warning;
   bool ok = false;
   try {
@@ -36,12 +49,11 @@ Document open(const std::string& path) {
   } catch (const std::exception& failure) {
     error = failure.what();
   }
+  if (error.find("json.exception") != std::string::npos) throw Error(path + ": its JSON is damaged or cut short");
   if (!ok) throw Error(path + ": cannot be read as glTF 2.0: " + error.substr(0, error.find_last_not_of('\n') + 1));
-  for (const std::string& name : document.model.extensionsRequired) {
-    if (std::find(kKnownExtensions.begin(), kKnownExtensions.end(), name) == kKnownExtensions.end()) {
-      throw Error(path + ": needs the glTF extension " + name + ", which is not supported; export without it");
-    }
-  }
+  const std::string& version = document.model.asset.version;
+  if (!version.starts_with("2.")) throw Error(path + ": it is glTF " + version + "; expected glTF 2.0: export it anew");
+  gltf::check_required_extensions(document);
   return document;
 }
 
@@ -73,7 +85,7 @@ std::vector<std::uint32_t> triangles_of(const std::vector<std::uint32_t>& order,
 
 class Importer {
  public:
-  Importer(const Document& document, const WarningHandler& warn) : document_(document), warn_(warn) {
+  Importer(const Document& document, UnusedFeatures& unused) : document_(document), unused_(unused) {
     for (const tinygltf::Material& material : document.model.materials) mesh_.materials.push_back(gltf::material_of(material));
     if (mesh_.materials.size() >= 65535) throw Error(document.path + ": more than 65535 materials");
   }
@@ -112,8 +124,7 @@ class Importer {
         primitive.mode == -1 || (primitive.mode >= TINYGLTF_MODE_TRIANGLES && primitive.mode <= TINYGLTF_MODE_TRIANGLE_FAN);
     const auto positions = primitive.attributes.find("POSITION");
     if (!has_triangles || positions == primitive.attributes.end()) {
-      if (warn_) warn_(document_.path + ": points and lines are left out");
-      return;
+      return unused_.add("points and lines are left out");
     }
     const std::size_t base = mesh_.vertices.size();
     add_vertices(primitive, read("POSITION", primitive, 3), scene_from_node);
@@ -178,7 +189,7 @@ class Importer {
   }
 
   const Document& document_;
-  const WarningHandler& warn_;
+  UnusedFeatures& unused_;
   Mesh mesh_;
 };
 
@@ -188,7 +199,10 @@ ImportedMesh import_gltf(const std::string& path, const WarningHandler& warn) {
   const Document document = open(path);
   try {
     ImportedMesh imported;
-    imported.mesh = Importer(document, warn).run();
+    UnusedFeatures unused;
+    imported.mesh = Importer(document, unused).run();
+    gltf::note_unused(document, unused);
+    unused.report(path, warn);
     return imported;
   } catch (const std::out_of_range&) {
     throw Error(path + ": damaged glTF: a scene, node or mesh is named that does not exist");
