@@ -12,6 +12,7 @@
 #include "render/math/sh.hpp"
 #include "render/mesh/bounds.hpp"
 #include "render/mesh/mesh_file.hpp"
+#include "render/mesh/test_objects.hpp"
 #include "render/receiver_light.hpp"
 #include "render/split_light.hpp"
 
@@ -95,6 +96,7 @@ std::string mesh_key(const SceneSettings& settings, const std::vector<std::strin
   for (const std::string& file : files) key += file_key(file);
   for (const SceneSettings::Object& object : settings.objects) {
     key += settings.resolve(object.mesh) + '\n';
+    if (std::ranges::count(render::kTestObjects, object.mesh) > 0) key += number_text(settings.tag.size_m) + '\n';
     const glm::dmat4 place = object.tag_from_object();
     for (int column = 0; column < 4; ++column) key += text_of(place[column]);
   }

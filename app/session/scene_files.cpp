@@ -5,6 +5,7 @@
 #include "catchlight/util/text.hpp"
 #include "render/mesh/bounds.hpp"
 #include "render/mesh/mesh_file.hpp"
+#include "render/mesh/test_objects.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -21,6 +22,17 @@ constexpr float kRounding = 1e-4f;
 constexpr float kQuietlySunk = 0.01f;
 
 constexpr const char* kAdvice = "raise it by tag_from_object.translation_m, or let receiver.plane be \"none\"";
+
+/// A test object stands where tag_from_object puts its origin, whatever model it turns upright.
+render::Mesh placed_object(const SceneSettings& settings, const SceneSettings::Object& object, const WarningHandler& warn) {
+  const glm::dmat4 tag_from_object = object.tag_from_object();
+  const std::optional<render::Mesh> shape = render::test_object(object.mesh, settings.tag.size_m);
+  if (!shape) return render::transformed(render::load_mesh(settings.resolve(object.mesh), warn), tag_from_object);
+  render::Mesh placed = render::transformed(*shape, tag_from_object);
+  const float lift_m = static_cast<float>(tag_from_object[3].z) - render::bounds_of(placed).min_m.z;
+  for (render::Vertex& vertex : placed.vertices) vertex.position_m.z += lift_m;
+  return placed;
+}
 
 /// The tag's plane is opaque: what is below is not there.
 void hide_below_plane(const SceneSettings::Object& object, render::Mesh& part, const WarningHandler& warn) {
@@ -44,7 +56,7 @@ render::Mesh load_objects(const SceneSettings& settings, const WarningHandler& w
     throw Error("the scene has no object: give an [[object]] in the scene file, or --object.mesh FILE");
   render::Mesh mesh;
   for (const SceneSettings::Object& object : settings.objects) {
-    render::Mesh part = render::transformed(render::load_mesh(settings.resolve(object.mesh), warn), object.tag_from_object());
+    render::Mesh part = placed_object(settings, object, warn);
     if (settings.receiver.plane == ReceiverPlane::tag) hide_below_plane(object, part, warn);
     render::append(mesh, part);
   }

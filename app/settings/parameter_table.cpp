@@ -1,6 +1,7 @@
 #include "app/settings/parameters.hpp"
 #include "render/glare/aperture_picture.hpp"
 #include "render/math/sh.hpp"
+#include "render/mesh/test_objects.hpp"
 #include "render/render_scene.hpp"
 #include "tracking/detection/families.hpp"
 
@@ -56,8 +57,12 @@ std::vector<Parameter> object_parameters() {
   using enum ChangeCost;
   using enum Scale;
   return {
-      {"object.mesh", "", mesh, "The object is read from this file, in metres: glTF 2.0 (`.glb`, `.gltf`), OBJ or PLY.",
-       PathKind{[](auto& s, std::size_t i) { return &s.objects[i].mesh; }}},
+      {"object.mesh", "", mesh,
+       "The object is read from this file, in metres: glTF 2.0 (`.glb`, `.gltf`), OBJ or PLY; or it is a test object that stands "
+       "on "
+       "the tag: `sphere`, a white ball, or `chrome-and-grey`, a mirror ball beside one of 18 % grey.",
+       PathKind{[](auto& s, std::size_t i) { return &s.objects[i].mesh; },
+                {render::kTestObjects.begin(), render::kTestObjects.end()}}},
       {"object.tag_from_object.translation_m", "m", mesh, "The object's origin is at this place in the tag's frame.",
        VectorKind{[](auto& s, std::size_t i) { return &s.objects[i].translation_m; }, -1000, 1000}},
       {"object.tag_from_object.rotation_deg", "deg", mesh,

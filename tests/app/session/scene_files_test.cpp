@@ -86,5 +86,40 @@ TEST_F(SceneObjects, WhatLiesBelowAsAWholeIsSaid) {
   EXPECT_THAT(warnings_, ElementsAre(HasSubstr("all of it")));
 }
 
+TEST_F(SceneObjects, TestObjectsStandOnTheTagHoweverModelsAreTurned) {
+  scene_.tag.size_m = 0.2;
+  for (const glm::dvec3& turn : {glm::dvec3(0), glm::dvec3(90, 0, 0), glm::dvec3(-90, 0, 0)}) {
+    scene_.objects[0].rotation_deg = turn;
+    scene_.objects[0].mesh = "sphere";
+    const render::Bounds ball = render::bounds_of(load());
+    EXPECT_LT(glm::distance(ball.min_m, glm::vec3(-0.075f, -0.075f, 0)), 1e-6f);
+    EXPECT_LT(glm::distance(ball.max_m, glm::vec3(0.075f, 0.075f, 0.15f)), 1e-6f);
+    scene_.objects[0].mesh = "chrome-and-grey";
+    const render::Bounds pair = render::bounds_of(load());
+    EXPECT_LT(glm::distance(pair.min_m, glm::vec3(-0.13f, -0.06f, 0)), 1e-6f);
+    EXPECT_LT(glm::distance(pair.max_m, glm::vec3(0.13f, 0.06f, 0.12f)), 1e-6f);
+  }
+  scene_.objects[0].translation_m = {0, 0, 0.05};
+  scene_.objects[0].scale = 0.5;
+  EXPECT_NEAR(render::bounds_of(load()).min_m.z, 0.05, 1e-6);
+  EXPECT_NEAR(render::bounds_of(load()).max_m.z, 0.11, 1e-6);
+  EXPECT_THAT(warnings_, IsEmpty());
+}
+
+TEST_F(SceneObjects, ChromeMirrorsAndGreyIsMatte) {
+  scene_.objects[0].mesh = "chrome-and-grey";
+  const render::Mesh pair = load();
+  ASSERT_EQ(pair.materials.size(), 2u);
+  for (std::size_t t = 0; t < pair.triangle_material.size(); ++t) {
+    const render::Vertex& corner = pair.vertices[pair.indices[3 * t]];
+    const bool is_chrome = pair.materials[pair.triangle_material[t]].metallic == 1;
+    EXPECT_EQ(is_chrome, corner.position_m.x < 0);
+    const glm::vec3 middle_m(is_chrome ? -0.028f : 0.028f, 0, 0.024f);
+    EXPECT_GT(glm::dot(corner.normal, glm::normalize(corner.position_m - middle_m)), 0.9999f) << "outward";
+  }
+  EXPECT_EQ(pair.materials[1].base_color, glm::vec3(0.18f));
+  EXPECT_EQ(pair.materials[1].dielectric_f0, 0);
+}
+
 }  // namespace
 }  // namespace catchlight::app
