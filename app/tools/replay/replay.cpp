@@ -127,22 +127,23 @@ void run(Session& session, const ReplayOptions& options, const std::function<boo
   if (renderers) result.renderers = renderers->difference();
 }
 
-void compare_with(const std::string& track_file, const Session& session, ReplayResult& result) {
-  result.pose =
-      compare_poses(session.track_rows(), tracking::read_track_file(track_file), session.camera(), session.settings().tag.size_m);
+void compare_with(const std::vector<TrackRow>& known, const Session& session, ReplayResult& result) {
+  result.pose = compare_poses(session.track_rows(), known, session.camera(), session.settings().tag.size_m);
   add_figures(*result.pose, result.figures);
 }
 
 ReplayResult replay_truth(Recording recording, const ReplayOptions& options, Log& log) {
   if (!recording.scene.is_by_hand("glare.enabled")) recording.scene.glare.enabled = false;
   recording.scene.lens.noise = Switch::off;
+  std::optional<std::vector<TrackRow>> known;  // read before the work, as it may be damaged
+  if (recording.poses_csv) known = tracking::read_track_file(*recording.poses_csv);
   Session session(std::move(recording), {.keeps_track = true}, log);
   TruthFrames truth(session.recording().folder);
   ReplayResult result;
   run(
       session, options, [&](const FrameJob& job) { return truth.has(job.image.number()); },
       [&](const FrameJob& job) { truth.compare(job); }, result, log);
-  if (const auto& poses = session.recording().poses_csv) compare_with(*poses, session, result);
+  if (known) compare_with(*known, session, result);
   if (!truth.comparisons.empty()) {
     result.pictures = mean_of(truth.comparisons);
     add_figures(*result.pictures, session.settings().glare.enabled, result.figures);
@@ -173,6 +174,7 @@ ReplayResult replay_baseline(Recording recording, const ReplayOptions& options, 
   const Baseline baseline(recording.folder);
   std::set<std::int64_t> kept_anew;
   if (options.bless) kept_anew = keep_track(recording, baseline, log);
+  const std::vector<TrackRow> known = tracking::read_track_file(baseline.track_file());
   Session session(std::move(recording), {.track_file = options.bless ? baseline.track_file() : "", .keeps_track = true}, log);
   ReplayResult result;
   result.kept.emplace();
@@ -193,7 +195,7 @@ ReplayResult replay_baseline(Recording recording, const ReplayOptions& options, 
     sheet.push_back(sheet_row(plate, ours, kept));
   };
   run(session, options, wants, compare, result, log);
-  compare_with(baseline.track_file(), session, result);
+  compare_with(known, session, result);
   add_figures(*result.kept, session.track_rows(), result.figures);
   if (!sheet.empty()) write_sheet(options.sheet, sheet);
   result.has_sheet = !sheet.empty();
