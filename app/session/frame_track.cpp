@@ -135,6 +135,16 @@ class RecordedTrack : public FrameTrack {
   bool finds_any(const FrameRange& range) const override {
     return std::ranges::any_of(rows_, [&](const auto& entry) { return range.contains(entry.first) && entry.second.found; });
   }
+  std::optional<TrackRow> middle_row(const FrameRange& range) const override {
+    std::vector<const TrackRow*> found;
+    for (const auto& [number, row] : rows_)
+      if (range.contains(number) && row.found) found.push_back(&row);
+    if (found.empty()) return std::nullopt;
+    const auto middle = found.begin() + static_cast<std::ptrdiff_t>(found.size() / 2);
+    std::ranges::nth_element(found, middle, {},
+                             [](const TrackRow* row) { return glm::length(row->camera_from_tag.translation_m); });
+    return **middle;
+  }
   std::optional<std::string> warning() const override { return exposure_warning(exposure_.counts(), settings_); }
 
  private:

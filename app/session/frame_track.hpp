@@ -27,6 +27,9 @@ class FrameTrack {
   /// Whether the tag may be found in any frame of the range.
   virtual bool finds_any(const FrameRange& range) const = 0;
 
+  /// The row at the middle distance from the tag, of those in the range that have a pose and are known beforehand.
+  virtual std::optional<TrackRow> middle_row(const FrameRange&) const { return std::nullopt; }
+
   /// What the user should know of the rows so far, if anything.
   virtual std::optional<std::string> warning() const = 0;
 

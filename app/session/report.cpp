@@ -91,6 +91,7 @@ std::string report_json(const Report& report) {
                               {"glare", {{"frames", report.glare_frames}, {"share", report.glare_share}}},
                               {"fps", report.fps},
                               {"renderer", report.renderer},
+                              {"object", report.object},
                               {"stages", nlohmann::ordered_json::object()},
                               {"plan", nlohmann::ordered_json::array()},
                               {"warnings", report.warnings}};
@@ -111,6 +112,7 @@ std::string report_summary(const Report& report) {
                      std::to_string(report.coasting_frames) + " coasting, " + std::to_string(report.lost_frames) + " lost, " +
                      fixed_text(report.fps, 1) + " frames/s";
   if (!report.renderer.empty()) text += " on " + report.renderer;
+  if (!report.object.empty()) text += '\n' + report.object;
   return text;
 }
 

@@ -58,6 +58,7 @@ struct Report {
   double glare_share = 0;         ///< share of the frame that glare reached in those, on average
   double fps = 0;        ///< frames a second of wall-clock time over all that was done: tracking, building, drawing, encoding
   std::string renderer;  ///< GL_RENDERER, or "cpu"
+  std::string object;    ///< how large the objects are, as scale_text; empty where that is not known
   StageTimer stages;
   std::vector<PlanEntry> plan;
   std::vector<std::string> warnings;
@@ -66,14 +67,14 @@ struct Report {
   void count(const TrackRow& row);
 };
 
-/// The report as JSON: frames, tracked_frames, coasting_frames, lost_frames, glare.{frames,share}, fps, renderer,
+/// The report as JSON: frames, tracked_frames, coasting_frames, lost_frames, glare.{frames,share}, fps, renderer, object,
 /// stages.{name}.{median_ms,p95_ms}, plan, warnings.
 std::string report_json(const Report& report);
 
 /// Writes the JSON beside `path` and renames it; throws as write_text_file.
 void write_report(const std::string& path, const Report& report, bool overwrite);
 
-/// The report in a line: frames, what became of the tag in them, speed. Without a line end.
+/// The report in a line or two: frames, what became of the tag in them, speed; how large the objects are. Without a line end.
 std::string report_summary(const Report& report);
 
 /// A line for each stage's time, and one for each choice of the plan; the last has no line end. Empty where there are none.

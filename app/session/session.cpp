@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "app/session/frame_view.hpp"
+#include "app/session/object_scale.hpp"
 #include "app/settings/change_cost.hpp"
 #include "app/settings/look.hpp"
 #include "catchlight/util/text.hpp"
@@ -65,9 +66,19 @@ void Session::prepare() {
   renderer_.load();
   renderer_.check_aperture();
   renderer_.open_renderer();
+  note_scale();
   const bool is_drawn =
       opened_track().finds_any(options_.range) || (recodes_every_frame(recording_.scene) && !options_.wants_layers);
   if (is_drawn) measure("build", [&] { renderer_.prepare(); });
+}
+
+void Session::note_scale() {
+  pass_.report.object.clear();
+  const std::optional<TrackRow> row = opened_track().middle_row(options_.range);
+  if (!row) return;
+  const render::Bounds box = render::bounds_of(renderer_.load().scene.mesh);
+  pass_.report.object = scale_text(box, recording_.scene.tag.size_m, row->camera_from_tag);
+  if (const auto warning = scale_warning(box, camera_, row->camera_from_tag)) log_.warn(*warning);
 }
 
 std::optional<FrameJob> Session::decode() {

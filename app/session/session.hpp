@@ -122,6 +122,9 @@ class Session {
   std::unique_ptr<FrameTrack> open_track();
   SolvedShot solve();
 
+  /// Says how large the objects are where the poses are known beforehand, and warns where that is odd.
+  void note_scale();
+
   /// Throws Error with the text where that is not allowed.
   void note_never_found(const std::string& text);
   std::unique_ptr<RewindableSource> open_source(const Recording& recording);
