@@ -144,6 +144,7 @@ void replay(const Options& options, Context& context) {
   const std::vector<std::string> folders = find_recordings(options.location);
   check_all(options, folders);
   std::vector<Replayed> recordings;
+  recordings.reserve(folders.size());
   for (const std::string& folder : folders) recordings.push_back(replay_one(options, folder, context));
   print_header();
   for (const Replayed& replayed : recordings)
