@@ -266,6 +266,16 @@ TEST_F(OverlayCommand, ObjectsAreNamedByTheirNumbers) {
                  {"unknown option --object[1].mash; did you mean --object.mesh"}, 2);
 }
 
+TEST_F(OverlayCommand, TestObjectsNeedNoFileAndSizesAreSaid) {
+  const std::string copy = copied_recording(1);
+  fs::remove(copy + "/object.glb");
+  const CommandResult balls = overlay(copy, out_, {"--object.mesh", "chrome-and-grey"});
+  EXPECT_EQ(balls.exit_code, 0) << balls.error;
+  EXPECT_THAT(balls.error, HasSubstr(" × 48 mm on a tag of 80 mm, 0."));
+  const CommandResult huge = overlay(copy, out_, {"-y", "--object.mesh", "sphere", "--object.tag_from_object.scale", "1000"});
+  EXPECT_THAT(huge.error, HasSubstr("the camera is inside the object"));
+}
+
 TEST_F(OverlayCommand, MeshWithoutNormalsIsDrawn) {
   const std::string copy = copied_recording(1);
   std::ofstream(copy + "/bare.obj")
