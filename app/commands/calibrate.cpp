@@ -73,6 +73,8 @@ std::string numbers_text(const std::vector<std::int64_t>& numbers) {
 CollectedViews views_in(const Options& options, CalibrationBoard& board, Log& log) {
   const FrameRange range = parse_frame_range(options.frames);
   const std::unique_ptr<MediaSource> source = MediaSource::open(options.footage);
+  if (source->info().is_one_pass && !source->info().is_live)
+    throw UsageError(options.footage + ": is looked at twice, and can be read once; give a file");
   if (source->info().is_live && range.end == FrameRange{}.end)
     throw UsageError(options.footage + ": has no end; say how many frames to look at, such as --frames 0:900");
   CollectedViews views = collect_views(*source, board, range, log);

@@ -112,7 +112,7 @@ void add_recording_options(CLI::App& command, const Context& context, std::strin
                            UsesParameter uses) {
   command
       .add_option("RECORDING", location,
-                  "Folder with footage, camera.yaml and scene.toml; or a video, a %04d pattern, a camera, a stream")
+                  "Folder with footage, camera.yaml and scene.toml; or a video, a %04d pattern, a camera, a stream, - (stdin)")
       ->required();
   command
       .add_option("--scene", overrides.scene_file,

@@ -30,13 +30,16 @@ void check(const Options& options) {
                      " is layers; choose a video or %04d.png, or leave --debug out");
   if (!options.track_out.empty()) {
     check_track_format(options.track_out);
-    check_output_path(options.track_out, options.sink.overwrite);
+    if (options.track_out == "-" && options.output == "-")
+      throw UsageError("-o - and --track-out -: both would go to stdout; give one of them a file");
+    if (options.track_out != "-") check_output_path(options.track_out, options.sink.overwrite);
   }
   if (!options.report.empty()) check_output_path(options.report, options.sink.overwrite);
 }
 
-void draw_frames(Session& session, FrameOutput& output, bool draws_debug) {
+void draw_frames(Session& session, FrameOutput& output, TrackLines* lines, bool draws_debug) {
   run_stages(session, [&](FrameJob& job) {
+    if (lines != nullptr) lines->write(job.track);
     if (draws_debug) draw_debug(job.image, job.track, session.camera(), session.settings().tag.size_m, job.result);
     session.measure("encode", [&] { output.write(job.image, job.result); });
   });
@@ -50,6 +53,8 @@ void overlay(const Options& options, Context& context) {
   std::vector<std::string> inputs = files_of(recording);
   inputs.push_back(options.track_in);
   refuse_shared_files({options.output, options.track_out, options.report}, inputs);
+  const bool has_track = !options.track_out.empty();
+  const bool has_lines = has_track && is_one_pass(options.recording) && is_track_of_lines(options.track_out);
   Session session(std::move(recording),
                   {.range = range,
                    .track_file = options.track_in,
@@ -57,17 +62,18 @@ void overlay(const Options& options, Context& context) {
                    .wants_layers = holds_layers(options.output),
                    .wants_frames = !options.debug,
                    .allows_lost = options.allow_lost,
-                   .keeps_track = !options.track_out.empty()},
+                   .keeps_track = has_track && !has_lines},
                   context.log);
   SinkOptions sink = options.sink;
   sink.frames = range;
   const std::unique_ptr<FrameOutput> output = open_output(options.output, session.recording().footage, session.footage(), sink);
-  draw_frames(session, *output, options.debug);
+  const Shot shot{session.camera(), session.settings(), session.footage().info().is_sequence};
+  std::optional<TrackLines> lines;
+  if (has_lines) lines.emplace(options.track_out, shot, options.sink.overwrite);
+  draw_frames(session, *output, lines ? &*lines : nullptr, options.debug);
 
-  if (!options.track_out.empty())
-    write_track(options.track_out, session.track_rows(),
-                {session.camera(), session.settings(), session.footage().info().is_sequence}, options.sink.overwrite,
-                context.log.warning_handler());
+  if (has_track && !has_lines)
+    write_track(options.track_out, session.track_rows(), shot, options.sink.overwrite, context.log.warning_handler());
   finish_report(session, options.report, options.sink.overwrite, context);
 }
 

@@ -43,8 +43,8 @@ void check_extension(const std::string& output) {
 /// The frame with the pose and the view that `overlay` would draw it by.
 FrameJob viewed_frame(Session& session, std::int64_t frame) {
   const std::string& footage = session.recording().footage;
-  if (session.footage().info().is_live)
-    throw UsageError(footage + ": a reference needs recorded footage, not a camera or stream");
+  if (session.footage().info().is_one_pass)
+    throw UsageError(footage + ": a reference needs recorded footage, not a camera, a stream or a pipe");
   session.load_scene();
   while (std::optional<FrameJob> job = session.decode()) {
     session.track(*job);

@@ -22,7 +22,7 @@ struct Options {
 void track(const Options& options, Context& context) {
   const FrameRange range = parse_frame_range(options.frames);
   check_track_format(options.output);
-  check_output_path(options.output, options.overwrite);
+  if (options.output != "-") check_output_path(options.output, options.overwrite);
   if (!options.report.empty()) check_output_path(options.report, options.overwrite);
   Recording recording = open_recording(options.recording, options.overrides);
   std::vector<std::string> inputs = files_of(recording);
@@ -35,9 +35,13 @@ void track(const Options& options, Context& context) {
                    .is_causal = options.causal,
                    .allows_lost = options.allow_lost},
                   context.log);
-  const std::vector<TrackRow> rows = session.track_range();
-  write_track(options.output, rows, {session.camera(), session.settings(), session.footage().info().is_sequence},
-              options.overwrite, context.log.warning_handler());
+  const Shot shot{session.camera(), session.settings(), session.footage().info().is_sequence};
+  if (is_one_pass(options.recording) && is_track_of_lines(options.output)) {
+    TrackLines lines(options.output, shot, options.overwrite);
+    session.track_range([&](const TrackRow& row) { lines.write(row); });
+  } else {
+    write_track(options.output, session.track_range(), shot, options.overwrite, context.log.warning_handler());
+  }
   finish_report(session, options.report, options.overwrite, context);
 }
 
@@ -55,7 +59,8 @@ void set_up_track(CLI::App& command, Context& context) {
   command
       .add_option(
           "-o,--output", options->output,
-          "track.csv (what --track reads), .jsonl; of the camera alone .tum or .txt (TUM RGB-D), .chan (Nuke), .gltf, .glb")
+          "track.csv (what --track reads), .jsonl; of the camera alone .tum or .txt (TUM RGB-D), .chan (Nuke), .gltf, .glb; - "
+          "(CSV on stdout)")
       ->required();
   command.add_flag("-y,--overwrite", options->overwrite, "replace existing outputs");
   command.add_option("--frames", options->frames,

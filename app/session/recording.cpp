@@ -66,11 +66,12 @@ Recording open_folder(const std::string& location) {
 }
 
 Recording open_bare_footage(const std::string& location) {
-  const bool is_plain_path = location.find("://") == std::string::npos && location.find('%') == std::string::npos;
+  const bool is_plain_path =
+      location != "-" && location.find("://") == std::string::npos && location.find('%') == std::string::npos;
   if (is_plain_path && !fs::exists(location))
-    throw Error(
-        location +
-        ": no such file or folder; expected a recording's folder, a video, a %04d pattern, a camera or a stream's address");
+    throw Error(location +
+                ": no such file or folder; expected a recording's folder, a video, a %04d pattern, a camera, a stream's address "
+                "or - for stdin");
   Recording recording;
   recording.name = name_of_footage(location);
   recording.footage = location;

@@ -88,6 +88,7 @@ std::string report_json(const Report& report) {
                               {"tracked_frames", report.tracked_frames},
                               {"coasting_frames", report.coasting_frames},
                               {"lost_frames", report.lost_frames},
+                              {"dropped_frames", report.dropped_frames},
                               {"glare", {{"frames", report.glare_frames}, {"share", report.glare_share}}},
                               {"fps", report.fps},
                               {"renderer", report.renderer},
@@ -110,6 +111,7 @@ void write_report(const std::string& path, const Report& report, bool overwrite)
 std::string report_summary(const Report& report) {
   std::string text = counted(report.frames, "frame") + ", " + std::to_string(report.tracked_frames) + " tracked, " +
                      std::to_string(report.coasting_frames) + " coasting, " + std::to_string(report.lost_frames) + " lost, " +
+                     (report.dropped_frames > 0 ? std::to_string(report.dropped_frames) + " dropped, " : "") +
                      fixed_text(report.fps, 1) + " frames/s";
   if (!report.renderer.empty()) text += " on " + report.renderer;
   if (!report.object.empty()) text += '\n' + report.object;

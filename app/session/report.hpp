@@ -54,8 +54,9 @@ class StageTimer {
 
 struct Report {
   std::int64_t frames = 0, tracked_frames = 0, coasting_frames = 0, lost_frames = 0;
-  std::int64_t glare_frames = 0;  ///< frames in which glare was drawn
-  double glare_share = 0;         ///< share of the frame that glare reached in those, on average
+  std::int64_t dropped_frames = 0;  ///< of live footage, for newer ones
+  std::int64_t glare_frames = 0;    ///< frames in which glare was drawn
+  double glare_share = 0;           ///< share of the frame that glare reached in those, on average
   double fps = 0;        ///< frames a second of wall-clock time over all that was done: tracking, building, drawing, encoding
   std::string renderer;  ///< GL_RENDERER, or "cpu"
   std::string object;    ///< how large the objects are, as scale_text; empty where that is not known
@@ -67,8 +68,8 @@ struct Report {
   void count(const TrackRow& row);
 };
 
-/// The report as JSON: frames, tracked_frames, coasting_frames, lost_frames, glare.{frames,share}, fps, renderer, object,
-/// stages.{name}.{median_ms,p95_ms}, plan, warnings.
+/// The report as JSON: frames, tracked_frames, coasting_frames, lost_frames, dropped_frames, glare.{frames,share}, fps, renderer,
+/// object, stages.{name}.{median_ms,p95_ms}, plan, warnings.
 std::string report_json(const Report& report);
 
 /// Writes the JSON beside `path` and renames it; throws as write_text_file.

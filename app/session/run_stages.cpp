@@ -8,18 +8,27 @@ namespace catchlight::app {
 
 void run_stages(Session& session, const std::function<void(FrameJob&)>& write, StageOptions options) {
   session.prepare();
-  const std::size_t length = session.footage().info().is_live ? 1 : options.queue_length;
+  const bool is_live = session.footage().info().is_live;
+  const std::size_t length = is_live ? 1 : options.queue_length;
   BoundedQueue<FrameJob> decoded(length), tracked(length), drawn(length), left_over(length);
-  const std::jthread decoding([&] { fill(decoded, [&] { return session.decode(); }); });
+  // The newest frame of live footage is taken when the tracker can begin with it.
+  const std::jthread decoding(is_live ? std::jthread() : std::jthread([&] { fill(decoded, [&] { return session.decode(); }); }));
   const std::jthread tracking([&] {
-    pass_on(decoded, tracked, [&](FrameJob& job) {
+    const auto track = [&](FrameJob& job) {
       session.track(job);
       return true;
+    };
+    if (!is_live) return pass_on(decoded, tracked, track);
+    fill(tracked, [&] {
+      std::optional<FrameJob> job = session.decode();
+      if (job) track(*job);
+      return job;
     });
   });
   const std::jthread writing([&] {
     pass_on(drawn, left_over, [&](FrameJob& job) {
       write(job);
+      session.finish(job);
       return false;
     });
   });

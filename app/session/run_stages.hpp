@@ -16,9 +16,9 @@ struct StageOptions {
 };
 
 /// while (auto job = session.decode()) session.track(*job), session.render(*job), write(*job), with a thread for each of these
-/// four: each sees the frames in order, so what is written is the same. Frames are drawn on the calling thread, as the GL context
-/// is its own; write is called on another. Prepares the session. Throws what the earliest frame to fail throws, as the loop
-/// would.
+/// four (live footage is decoded and tracked on one): each sees the frames in order, so what is written is the same. Frames are
+/// drawn on the calling thread, as the GL context is its own; write is called on another. Prepares the session. Throws what the
+/// earliest frame to fail throws, as the loop would.
 void run_stages(Session& session, const std::function<void(FrameJob&)>& write, StageOptions options = {});
 
 }  // namespace catchlight::app

@@ -8,6 +8,7 @@
 #include "app/session/object_scale.hpp"
 #include "app/settings/change_cost.hpp"
 #include "app/settings/look.hpp"
+#include "app/support/waiting.hpp"
 #include "catchlight/util/text.hpp"
 #include "tracking/track_file.hpp"
 
@@ -30,6 +31,10 @@ void check_range(const std::string& footage, const FrameRange& range, const Sour
 }
 
 constexpr const char* kAllowLost = ". --allow-lost goes on without it";
+
+std::string shown(const std::string& footage) {
+  return footage == "-" ? "stdin" : footage;
+}
 
 PlanEntry glare_entry(const SceneSettings& scene, const Report& report) {
   if (!scene.glare.enabled) return {"glare", "off", "glare.enabled is false"};
@@ -85,12 +90,12 @@ std::optional<FrameJob> Session::decode() {
   opened_track();
   if (!progress_) progress_.emplace(log_, options_.task, frames_in_range(footage_->info(), options_.range));
   try {
-    std::optional<Frame> frame = measure("decode", [&] { return footage_->read(); });
+    std::optional<Frame> frame = measure("decode", [&] { return next_frame(); });
     if (frame && frame->number() < options_.range.end) {
       ++pass_.decoded;
       const bool is_before_range = frame->number() < options_.range.begin;
       if (!is_before_range) ++pass_.in_range;
-      progress_->update(pass_.in_range);
+      progress_->update(pass_.in_range, live_state());
       return FrameJob{.image = std::move(*frame), .is_before_range = is_before_range};
     }
   } catch (const DamagedMedia& damaged) {
@@ -100,6 +105,24 @@ std::optional<FrameJob> Session::decode() {
   if (pass_.in_range == 0 && pass_.damage) throw DamagedMedia(*pass_.damage);
   if (pass_.in_range == 0) refuse_range(recording_.footage, options_.range, pass_.decoded, footage_->info().first_number);
   return std::nullopt;
+}
+
+std::optional<Frame> Session::next_frame() {
+  if (!footage_->info().is_one_pass) return footage_->read();
+  const Waiting waiting(log_, "frames from " + shown(recording_.footage));
+  return footage_->read();
+}
+
+std::string Session::live_state() const {
+  if (!footage_->info().is_live) return "";
+  return fixed_text(delay_s_, 1) + " s behind, " + std::to_string(footage_->dropped_frames()) + " dropped";
+}
+
+void Session::finish(const FrameJob& job) {
+  if (!footage_->info().is_live) return;
+  const std::chrono::duration<double> delay = std::chrono::steady_clock::now() - job.image.decoded_at();
+  delay_s_ = delay.count();
+  pass_.report.stages.add("delay", 1000 * delay.count());
 }
 
 void Session::track(FrameJob& job) {
@@ -122,7 +145,7 @@ void Session::render(FrameJob& job) {
 }
 
 bool Session::is_solved_whole() const {
-  return options_.track_file.empty() && !options_.is_causal && !footage_->info().is_live;
+  return options_.track_file.empty() && !options_.is_causal && !footage_->info().is_one_pass;
 }
 
 FrameTrack& Session::opened_track() {
@@ -157,13 +180,14 @@ void Session::note_never_found(const std::string& text) {
 }
 
 std::unique_ptr<RewindableSource> Session::open_source(const Recording& recording) {
+  const Waiting waiting(log_, shown(recording.footage));
   return std::make_unique<RewindableSource>(
       open_footage(recording, log_.warning_handler()), [this] { return open_footage(recording_); }, options_.kept_bytes);
 }
 
-std::vector<TrackRow> Session::track_range() {
-  std::vector<TrackRow> rows;
+void Session::track_range(const std::function<void(const TrackRow&)>& take) {
   if (is_solved_whole()) {
+    std::vector<TrackRow> rows;
     SolvedShot solved = solve();
     pass_.damage = solved.damage;
     for (const TrackRow& row : solved.rows)
@@ -171,25 +195,34 @@ std::vector<TrackRow> Session::track_range() {
     if (rows.empty() && !solved.damage)
       refuse_range(recording_.footage, options_.range, static_cast<std::int64_t>(solved.rows.size()),
                    footage_->info().first_number);
-    for (const TrackRow& row : rows) pass_.report.count(row);
-    return rows;
+    for (const TrackRow& row : rows) {
+      pass_.report.count(row);
+      take(row);
+    }
+    return;
   }
   while (std::optional<FrameJob> job = decode()) {
     track(*job);
-    if (!job->is_before_range) rows.push_back(job->track);
+    if (!job->is_before_range) take(job->track);
+    finish(*job);
   }
+}
+
+std::vector<TrackRow> Session::track_range() {
+  std::vector<TrackRow> rows;
+  track_range([&](const TrackRow& row) { rows.push_back(row); });
   return rows;
 }
 
 void Session::apply(const SceneSettings& settings) {
   const std::set<ChangeCost> costs = costs_of_change(recording_.scene, settings);
   const bool is_tracked_anew = costs.contains(ChangeCost::track) || costs.contains(ChangeCost::footage);
-  const bool is_live = footage_->info().is_live;
-  if (is_live && costs.contains(ChangeCost::footage))
+  const bool is_one_pass = footage_->info().is_one_pass;
+  if (is_one_pass && costs.contains(ChangeCost::footage))
     throw Error(recording_.footage + ": live footage cannot be read in another way while it runs; open it anew");
   Recording changed = recording_;
   changed.scene = settings;
-  if (is_tracked_anew && !is_live) {
+  if (is_tracked_anew && !is_one_pass) {
     footage_ = open_source(changed);  // where this throws, all is as before
     progress_.reset();
     pass_ = {};
@@ -221,7 +254,11 @@ std::vector<std::string> Session::failures() const {
 
 /// How often the footage is decoded, and why.
 PlanEntry Session::footage_entry() const {
-  if (footage_->info().is_live) return {"footage", "decoded once", "live footage is tracked frame by frame"};
+  if (footage_->info().is_live)
+    return {"footage", "decoded once",
+            "live footage is tracked frame by frame; " + std::to_string(footage_->dropped_frames()) +
+                " frames were dropped for newer ones"};
+  if (footage_->info().is_one_pass) return {"footage", "decoded once", "it can be read once, and is tracked frame by frame"};
   if (!is_solved_whole()) return {"footage", "decoded once", "it is not tracked as a whole"};
   const auto megabytes = [](std::int64_t bytes) { return std::to_string((bytes + 500'000) / 1'000'000) + " MB"; };
   const RewindableSource::Kept& kept = footage_->kept();
@@ -248,6 +285,7 @@ Report Session::report() const {
   const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - pass_.start).count();
   report.fps = elapsed_s > 0 ? static_cast<double>(report.frames) / elapsed_s : 0;
   report.renderer = renderer_.renderer_name();
+  report.dropped_frames = footage_->dropped_frames();
   report.plan = plan();
   report.warnings = log_.warnings();
   return report;

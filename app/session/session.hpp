@@ -1,7 +1,9 @@
 // An opened shot that can be stepped: footage, track, scene and renderer. Every command that handles frames is written on it.
 #pragma once
 
+#include <atomic>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -60,7 +62,12 @@ class Session {
   /// Takes a frame that is not to be drawn: the exposure adapts to it as well.
   void skip(FrameJob& job) { renderer_.skip(job); }
 
-  /// The track of the whole range without drawing anything. Takes the footage to its end.
+  /// Notes that all is done with a frame: how far live footage is behind. May be called on a thread of its own.
+  void finish(const FrameJob& job);
+
+  /// Hands out the track of the whole range without drawing anything. Takes the footage to its end. What can be read only once
+  /// is handed out frame by frame.
+  void track_range(const std::function<void(const TrackRow&)>& take);
   std::vector<TrackRow> track_range();
 
   /// Takes new settings for the frames to come, and redoes no more than they ask for. Where the footage itself has to be read
@@ -129,6 +136,8 @@ class Session {
   void note_never_found(const std::string& text);
   std::unique_ptr<RewindableSource> open_source(const Recording& recording);
   PlanEntry footage_entry() const;
+  std::optional<Frame> next_frame();
+  std::string live_state() const;
 
   Recording recording_;
   SessionOptions options_;
@@ -139,6 +148,7 @@ class Session {
   ShotRenderer renderer_;
   std::optional<std::string> never_found_;  ///< what to say where the tag is in no frame
   std::optional<Progress> progress_;
+  std::atomic<double> delay_s_ = 0;  ///< from decoding the last frame that is finished to that
   Pass pass_;
 };
 

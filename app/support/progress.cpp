@@ -14,6 +14,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kRedrawInterval = std::chrono::milliseconds(100);
+constexpr double kLineInterval_s = 10;
 constexpr int kBarWidth = 28;
 /// Before, frames that wait in queues would tell of rates that there are not.
 constexpr double kRateAfter_s = 1;
@@ -62,31 +63,29 @@ Progress::~Progress() {
   if (std::exchange(log_.bar_shown_, false)) std::fputc('\n', stderr);
 }
 
-void Progress::update(std::int64_t done) {
+void Progress::update(std::int64_t done, const std::string& state) {
   if (log_.quiet()) return;
   if (done <= 0) start_ = Clock::now();
-  const double elapsed_s = seconds_since(start_);
-  if (on_terminal_)
-    draw_bar(done, elapsed_s);
-  else
-    print_line(done, elapsed_s);
+  std::string text = progress_text(label_, done, total_, unit_, seconds_since(start_));
+  if (!state.empty()) text += ", " + state;
+  on_terminal_ ? draw_bar(done, text) : print_line(done, text);
 }
 
-void Progress::draw_bar(std::int64_t done, double elapsed_s) {
+void Progress::draw_bar(std::int64_t done, const std::string& text) {
   const bool is_last = total_ && done >= *total_;
   if (!is_last && Clock::now() - last_drawn_ < kRedrawInterval) return;
   last_drawn_ = Clock::now();
   const std::lock_guard lock(log_.mutex_);
-  std::fprintf(stderr, "\r%s\033[K", progress_text(label_, done, total_, unit_, elapsed_s).c_str());
+  std::fprintf(stderr, "\r%s\033[K", text.c_str());
   log_.bar_shown_ = true;
 }
 
-void Progress::print_line(std::int64_t done, double elapsed_s) {
-  if (!total_ || *total_ <= 0) return;
-  const std::int64_t tenth = done * 10 / *total_;
-  if (tenth <= last_tenth_) return;
-  last_tenth_ = tenth;
-  log_.info(progress_text(label_, done, total_, unit_, elapsed_s));
+void Progress::print_line(std::int64_t done, const std::string& text) {
+  if (total_ && *total_ <= 0) return;
+  const std::int64_t step = total_ ? done * 10 / *total_ : static_cast<std::int64_t>(seconds_since(start_) / kLineInterval_s);
+  if (step <= last_step_) return;
+  last_step_ = step;
+  log_.info(text);
 }
 
 ProgressHandler progress_handler(Log& log, const std::string& label) {

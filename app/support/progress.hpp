@@ -11,7 +11,8 @@
 
 namespace catchlight::app {
 
-/// Shows a bar that is drawn over itself on a terminal, else a line every tenth of the way; nothing when the log is quiet.
+/// Shows a bar that is drawn over itself on a terminal, else a line every tenth of the way, or every ten seconds where nobody
+/// knows how long it is; nothing when the log is quiet.
 class Progress {
  public:
   /// `total`: frames, where known. Without, the count is shown. `unit`: what is counted, e.g. "frames".
@@ -20,19 +21,19 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// The rate is that of what was done since the last update(0).
-  void update(std::int64_t done);
+  /// The rate is that of what was done since the last update(0). `state` is shown behind it.
+  void update(std::int64_t done, const std::string& state = "");
 
  private:
-  void draw_bar(std::int64_t done, double elapsed_s);
-  void print_line(std::int64_t done, double elapsed_s);
+  void draw_bar(std::int64_t done, const std::string& text);
+  void print_line(std::int64_t done, const std::string& text);
 
   Log& log_;
   std::string label_, unit_;
   std::optional<std::int64_t> total_;
   bool on_terminal_;
   std::chrono::steady_clock::time_point start_, last_drawn_;
-  std::int64_t last_tenth_ = 0;
+  std::int64_t last_step_ = 0;
 };
 
 /// The text of one bar, for `width` columns: "label [####      ] 12/36 frames, 4.2 /s, 6 s left".

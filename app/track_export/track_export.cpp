@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iostream>
 #include <map>
 
 #include "app/support/output_file.hpp"
@@ -15,18 +16,21 @@ namespace {
 
 using Rows = std::vector<TrackRow>;
 
+constexpr const char* kStdout = "-";
+
 struct Format {
   std::string (*text)(const Rows& rows, const Shot& shot);
   bool holds_lost_frames = false;
   bool is_pinhole = false;  ///< all that it knows of the camera is the field of view
+  bool is_lines = false;    ///< the text of several rows is the header and a line for each
 };
 
 const std::map<std::string, Format>& formats() {
   static const std::map<std::string, Format> table{
-      {".csv", {[](const Rows& rows, const Shot&) { return tracking::track_file_text(rows); }, true}},
-      {".jsonl", {[](const Rows& rows, const Shot&) { return json_lines_text(rows); }, true}},
-      {".tum", {[](const Rows& rows, const Shot&) { return tum_text(rows); }}},
-      {".txt", {[](const Rows& rows, const Shot&) { return tum_text(rows); }}},
+      {".csv", {[](const Rows& rows, const Shot&) { return tracking::track_file_text(rows); }, true, false, true}},
+      {".jsonl", {[](const Rows& rows, const Shot&) { return json_lines_text(rows); }, true, false, true}},
+      {".tum", {[](const Rows& rows, const Shot&) { return tum_text(rows); }, false, false, true}},
+      {".txt", {[](const Rows& rows, const Shot&) { return tum_text(rows); }, false, false, true}},
       {".chan", {chan_text, false, true}},
       {".gltf", {gltf_text, false, true}},
       {".glb", {glb_bytes, false, true}}};
@@ -34,7 +38,7 @@ const std::map<std::string, Format>& formats() {
 }
 
 const Format& format_of(const std::string& path) {
-  const std::string extension = std::filesystem::path(path).extension().string();
+  const std::string extension = path == kStdout ? ".csv" : std::filesystem::path(path).extension().string();
   if (const auto found = formats().find(extension); found != formats().end()) return found->second;
   std::vector<std::string> known;
   for (const auto& [name, format] : formats()) known.push_back(name);
@@ -70,9 +74,36 @@ void write_track(const std::string& path, const std::vector<TrackRow>& rows, con
   const Format& format = format_of(path);
   if (!format.holds_lost_frames && !has_pose(rows))
     throw Error(path + ": no frame has a pose, so there is no camera trajectory to write; .csv and .jsonl hold lost frames too");
-  write_text_file(path, format.text(rows, shot), overwrite);
+  if (path == kStdout)
+    std::cout << format.text(rows, shot) << std::flush;
+  else
+    write_text_file(path, format.text(rows, shot), overwrite);
   if (const std::string missing = beyond_pinhole(shot.camera); format.is_pinhole && !missing.empty())
     warn(path + " does not hold " + missing + "; docs/track-formats.md says what to do about it");
+}
+
+bool is_track_of_lines(const std::string& path) {
+  return format_of(path).is_lines;
+}
+
+TrackLines::TrackLines(const std::string& path, const Shot& shot, bool overwrite)
+    : path_(path), shot_(shot), stream_(path == kStdout ? std::cout : file_) {
+  const std::string header = format_of(path).text({}, shot);
+  header_bytes_ = header.size();
+  if (path != kStdout) {
+    check_output_path(path, overwrite);
+    file_.open(path, std::ios::binary);
+  }
+  put(header);
+}
+
+void TrackLines::write(const TrackRow& row) {
+  put(format_of(path_).text({row}, shot_).substr(header_bytes_));
+}
+
+void TrackLines::put(const std::string& text) {
+  stream_ << text << std::flush;
+  if (!stream_) throw Error((path_ == kStdout ? "stdout" : path_) + ": cannot be written; is the disk full, or the reader gone?");
 }
 
 }  // namespace catchlight::app

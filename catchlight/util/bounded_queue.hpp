@@ -28,6 +28,13 @@ class BoundedQueue {
     return true;
   }
 
+  /// Waits while the queue is full. False where nobody takes items any more.
+  bool wait_for_room() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return items_.size() < length_ || is_closed_; });
+    return !is_closed_;
+  }
+
   /// No more items come, because of `failure` where there is one.
   void end(std::exception_ptr failure = {}) {
     const std::lock_guard lock(mutex_);
@@ -67,11 +74,12 @@ class BoundedQueue {
   std::exception_ptr failure_;
 };
 
-/// Fills a queue with what `next` gives until it gives none or nobody takes it any more.
+/// Fills a queue with what `next` gives until it gives none or nobody takes it any more. `next` is called once there is room, so
+/// that an item is no older than it must be.
 template <class Item, class Next>
 void fill(BoundedQueue<Item>& to, Next next) {
   try {
-    for (std::optional<Item> item; (item = next()) && to.push(std::move(*item));) {
+    for (std::optional<Item> item; to.wait_for_room() && (item = next()) && to.push(std::move(*item));) {
     }
     to.end();
   } catch (...) {

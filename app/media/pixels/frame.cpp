@@ -252,6 +252,12 @@ Frame Frame::with_composite(const Composite& composite) const {
   return std::move(writer).finish();
 }
 
+Frame Frame::renumbered(std::int64_t number) const {
+  Frame frame = *this;
+  frame.number_ = number;
+  return frame;
+}
+
 FrameWriter::FrameWriter(Frame frame) : frame_(std::move(frame)) {
   const AVFrame& picture = *frame_.picture_;
   written_ = make_frame_like(picture, static_cast<AVPixelFormat>(picture.format));

@@ -1,6 +1,7 @@
 // One picture of the footage, kept as the decoder gave it.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 
@@ -21,6 +22,7 @@ class Frame : public FrameImage {
 
   std::int64_t number() const { return number_; }  ///< index in a video from 0; the file's own number in a sequence
   double time_s() const { return time_s_; }
+  std::chrono::steady_clock::time_point decoded_at() const { return decoded_at_; }
   int width_px() const;
   int height_px() const;
   const AVFrame& picture() const { return *picture_; }
@@ -47,12 +49,15 @@ class Frame : public FrameImage {
   /// of the changes.
   Frame with_composite(const Composite& composite) const;
 
+  Frame renumbered(std::int64_t number) const;
+
  private:
   friend class FrameWriter;
 
   std::shared_ptr<const AVFrame> picture_;
   std::int64_t number_;
   double time_s_;
+  std::chrono::steady_clock::time_point decoded_at_ = std::chrono::steady_clock::now();
   std::shared_ptr<const CameraResponse> response_;
   mutable std::shared_ptr<std::vector<std::uint8_t>> made_luma_;
 };

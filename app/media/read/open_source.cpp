@@ -1,5 +1,7 @@
 #include "app/media/read/source.hpp"
 
+#include <unistd.h>
+
 #include <filesystem>
 
 extern "C" {
@@ -7,6 +9,7 @@ extern "C" {
 }
 
 #include "app/media/late_library.hpp"
+#include "app/media/read/newest_frame_source.hpp"
 #include "app/media/read/sequence.hpp"
 #include "app/media/read/video_source.hpp"
 #include "catchlight/error.hpp"
@@ -15,6 +18,14 @@ namespace catchlight::app {
 namespace {
 
 namespace fs = std::filesystem;
+
+bool is_address(const std::string& location) {
+  return location.find("://") != std::string::npos;
+}
+
+bool is_camera(const std::string& location) {
+  return location.starts_with("/dev/video");
+}
 
 SourceRequest sequence_request(const std::string& location, const SequencePattern& pattern, double fps) {
   const std::vector<std::int64_t> numbers = pattern.existing();
@@ -44,6 +55,12 @@ SourceRequest file_request(const std::string& location) {
   return {location, "file:" + location, "", {}, {}, {}};
 }
 
+SourceRequest stdin_request() {
+  if (isatty(STDIN_FILENO) != 0)
+    throw UsageError("'-' is stdin, and nothing is piped into it; as in `ffmpeg -i clip.mp4 -f yuv4mpegpipe - | catchlight ...`");
+  return {"stdin", "pipe:0", "", {}, {}, {}};
+}
+
 SourceRequest live_request(const std::string& location, const std::string& input_format) {
   SourceRequest request{location, location, input_format, {}, {}, {}};
   request.info.is_live = true;
@@ -57,13 +74,18 @@ SourceRequest camera_request(const std::string& location) {
 }
 
 SourceRequest request_of(const std::string& location, double sequence_fps) {
-  if (location.find("://") != std::string::npos) return live_request(location, "");
-  if (location.starts_with("/dev/video")) return camera_request(location);
+  if (location == "-") return stdin_request();
+  if (is_address(location)) return live_request(location, "");
+  if (is_camera(location)) return camera_request(location);
   const auto pattern = SequencePattern::parse(location);
   return pattern && !fs::exists(location) ? sequence_request(location, *pattern, sequence_fps) : file_request(location);
 }
 
 }  // namespace
+
+bool is_one_pass(const std::string& location) {
+  return location == "-" || is_address(location) || is_camera(location);
+}
 
 std::unique_ptr<MediaSource> MediaSource::open(const std::string& location, double sequence_fps,
                                                std::shared_ptr<const CameraResponse> response) {
@@ -72,7 +94,10 @@ std::unique_ptr<MediaSource> MediaSource::open(const std::string& location, doub
     throw UsageError("no footage named: a file, a pattern such as 'plate/%04d.png', a camera or an address is wanted");
   SourceRequest request = request_of(location, sequence_fps);
   request.response = std::move(response);
-  return std::make_unique<VideoSource>(std::move(request));
+  request.info.is_one_pass = is_one_pass(location);
+  auto source = std::make_unique<VideoSource>(std::move(request));
+  if (!source->info().is_live) return source;
+  return std::make_unique<NewestFrameSource>(std::move(source));
 }
 
 }  // namespace catchlight::app

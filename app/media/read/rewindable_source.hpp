@@ -23,6 +23,8 @@ class RewindableSource final : public MediaSource {
   const SourceInfo& info() const override { return info_; }
   std::optional<Frame> read() override;
   const AVStream* video_stream() const override { return source_->video_stream(); }
+  std::int64_t dropped_frames() const override { return source_->dropped_frames(); }
+  void stop() override { source_->stop(); }
 
   /// `frame_count`: how many frames will be read until rewind(), where that is known. Where they will not fit, none is kept.
   void keep(std::optional<std::int64_t> frame_count);

@@ -20,9 +20,13 @@ struct SourceInfo {
   std::int64_t first_number = 0;            ///< number of the first frame
   double frame_rate = 0;                    ///< average
   bool is_sequence = false;
-  bool is_live = false;  ///< camera or stream
+  bool is_live = false;      ///< a camera or stream, which does not wait: read() gives the newest frame
+  bool is_one_pass = false;  ///< it cannot be read a second time; see is_one_pass()
   std::string codec, pixel_format;
 };
+
+/// Whether what is there can be read once only: a camera, an address or stdin.
+bool is_one_pass(const std::string& location);
 
 /// The footage broke off or is damaged; frames before the damage were delivered.
 struct DamagedMedia : Error {
@@ -32,7 +36,8 @@ struct DamagedMedia : Error {
 /// Decodes strictly in order; never seeks.
 class MediaSource {
  public:
-  /// `location`: a file, a `%04d` pattern (from any number), `/dev/video0`, or an address (`rtsp://`, `http://`, ...).
+  /// `location`: a file, a `%04d` pattern (from any number), `/dev/video0`, an address (`rtsp://`, `http://`, ...), or `-` for
+  /// stdin.
   /// `sequence_fps`: image files do not say how fast they follow each other.
   /// Throws Error: no such file, no video stream in it, a gap in a sequence (number named); DamagedMedia: not even one frame can
   /// be decoded.
@@ -50,6 +55,12 @@ class MediaSource {
 
   /// The stream whose audio and timing a sink carries over; null for sequences.
   virtual const AVStream* video_stream() const = 0;
+
+  /// Frames of live footage that nobody took before a newer one came.
+  virtual std::int64_t dropped_frames() const { return 0; }
+
+  /// Ends a read() that waits for a stream, and all that follow. May be called from another thread.
+  virtual void stop() {}
 };
 
 }  // namespace catchlight::app

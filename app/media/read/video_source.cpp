@@ -71,7 +71,9 @@ void VideoSource::open_input() {
   Options options;
   for (const auto& [key, value] : request_.options) options.set(key, value);
   const AVInputFormat* format = request_.input_format.empty() ? nullptr : av_find_input_format(request_.input_format.c_str());
-  AVFormatContext* input = nullptr;
+  AVFormatContext* input = allocated(avformat_alloc_context());
+  input->interrupt_callback = {[](void* stopped) { return static_cast<std::atomic<bool>*>(stopped)->load() ? 1 : 0; },
+                               &is_stopped_};
   const int opened = avformat_open_input(&input, request_.url.c_str(), format, options.get());
   if (opened == AVERROR_INVALIDDATA) {
     throw Error(about() + " is no video that FFmpeg can read, or its header is missing because the file was cut short (" +
@@ -82,6 +84,9 @@ void VideoSource::open_input() {
   // FFmpeg shows any text file as a film of a terminal.
   if (std::string(input_->iformat->name) == "tty") throw Error(about() + " is a text file, not a video");
   check_ffmpeg(avformat_find_stream_info(input_.get(), nullptr), "cannot read " + about());
+  // A file on a server waits.
+  const bool is_file = input_->pb && input_->duration > 0;
+  if (is_file) request_.info.is_live = false;
 }
 
 void VideoSource::choose_stream() {

@@ -1,6 +1,8 @@
 // Decodes whatever FFmpeg opens. Private to app/media.
 #pragma once
 
+#include <atomic>
+
 #include "app/media/ffmpeg_handles.hpp"
 #include "app/media/pixels/orientation.hpp"
 #include "app/media/read/source.hpp"
@@ -14,7 +16,7 @@ struct SourceRequest {
   std::string url;           ///< as FFmpeg takes it
   std::string input_format;  ///< empty: FFmpeg finds out
   std::vector<std::pair<std::string, std::string>> options;
-  SourceInfo info;  ///< frame_count, first_number, is_sequence of a sequence; is_live
+  SourceInfo info;  ///< frame_count, first_number, is_sequence of a sequence; is_live, is_one_pass
   std::shared_ptr<const CameraResponse> response;
 };
 
@@ -25,6 +27,7 @@ class VideoSource final : public MediaSource {
   const SourceInfo& info() const override { return request_.info; }
   std::optional<Frame> read() override;
   const AVStream* video_stream() const override { return request_.info.is_sequence ? nullptr : stream_; }
+  void stop() override { is_stopped_ = true; }
 
  private:
   void open_input();
@@ -46,6 +49,7 @@ class VideoSource final : public MediaSource {
   std::string about() const { return "'" + request_.location + "'"; }
 
   SourceRequest request_;
+  std::atomic<bool> is_stopped_ = false;
   InputPtr input_;
   AVStream* stream_ = nullptr;
   CodecPtr decoder_;

@@ -111,14 +111,20 @@ std::unique_ptr<MediaSink> MediaSink::open(const std::string& path, const std::s
   if (auto pattern = SequencePattern::parse(path))
     return open_sequence(path, std::move(*pattern), source_location, source, options);
   const Container& container = container_of(path);
-  VideoSinkRequest request{path,   std::string(container.muxer), codec_of(path, container, options.codec),
-                           "",     frame_rate_of(source),        source.info().first_number,
-                           options};
+  VideoSinkRequest request{.path = path,
+                           .muxer = std::string(container.muxer),
+                           .codec = codec_of(path, container, options.codec),
+                           .audio_location = "",
+                           .frame_rate = frame_rate_of(source),
+                           .first_number = source.info().first_number,
+                           .options = options};
   if (request.codec == VideoCodec::h264) check_quality(options);
   request.options.pixel_format = pixel_format_for(request.codec, request.muxer, source.info(), options);
   if (path != "-") refuse_same_file(path, source_location);
-  // A camera or stream cannot be read a second time; y4m has no audio.
-  if (!source.info().is_sequence && !source.info().is_live && request.codec != VideoCodec::y4m)
+  constexpr double kMaxRate = 240;  // beyond, a stream's rate is its clock's
+  request.fills_gaps = source.info().is_live && request.codec == VideoCodec::y4m && av_q2d(request.frame_rate) <= kMaxRate;
+  // What cannot be read a second time has its audio read by nobody; y4m has none.
+  if (!source.info().is_sequence && !source.info().is_one_pass && request.codec != VideoCodec::y4m)
     request.audio_location = source_location;
   return std::make_unique<VideoSink>(std::move(request));
 }

@@ -53,9 +53,23 @@ void VideoSink::write(const Frame& frame) {
   const FramePtr picture = frame_for(*encoder_, frame.picture());
   picture->pts -= start_pts_;
   end_pts_ = frame.picture().pts + frame.picture().pkt_duration;
+  if (request_.fills_gaps) fill_gap(*picture);
   durations_[picture->pts] = frame.picture().pkt_duration;
   encode(picture.get());
   if (audio_) audio_->copy_until(source_us(frame.picture().pts), *output_);
+}
+
+// Gives the frame its place by the frame rate, and the one before all places up to there.
+void VideoSink::fill_gap(AVFrame& next) {
+  const AVRational tick = av_inv_q(request_.frame_rate);
+  const std::int64_t wanted = av_rescale_q(next.pts, encoder_->time_base, tick);
+  const auto take_place = [&](AVFrame& frame) { frame.pts = av_rescale_q(ticks_written_++, tick, encoder_->time_base); };
+  while (last_ && ticks_written_ < wanted) {
+    take_place(*last_);
+    encode(last_.get());
+  }
+  take_place(next);
+  last_.reset(allocated(av_frame_clone(&next)));
 }
 
 // A null frame drains the encoder.

@@ -17,6 +17,7 @@ struct VideoSinkRequest {
   std::string audio_location;  ///< empty: no audio
   AVRational frame_rate{24, 1};
   std::int64_t first_number = 0;  ///< the source's first frame number
+  bool fills_gaps = false;        ///< a frame is repeated until the next one's time: for live footage in a file without times
   SinkOptions options;
 };
 
@@ -31,6 +32,7 @@ class VideoSink final : public MediaSink {
   void begin(const Frame& first);
   void write_header();
   void encode(const AVFrame* frame);
+  void fill_gap(AVFrame& next);
   void close_file();
   std::int64_t source_us(std::int64_t pts) const { return av_rescale_q(pts, encoder_->time_base, AV_TIME_BASE_Q); }
   std::string what() const { return "cannot write '" + request_.path + "'"; }
@@ -43,6 +45,8 @@ class VideoSink final : public MediaSink {
   std::optional<AudioCopy> audio_;
   PacketPtr packet_ = make_packet();
   std::int64_t start_pts_ = 0, end_pts_ = 0;
+  FramePtr last_;                                   ///< where gaps are filled
+  std::int64_t ticks_written_ = 0;                  ///< of the frame rate, then
   std::map<std::int64_t, std::int64_t> durations_;  // by pts, of frames inside the encoder
 };
 

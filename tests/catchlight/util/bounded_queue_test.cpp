@@ -118,5 +118,23 @@ TEST(BoundedQueue, WorkThatKeepsAnItemBackHandsOnTheOthers) {
   EXPECT_EQ(taken, (std::vector{0, 3, 6, 9}));
 }
 
+/// Of live footage the item is the newest when it is made: none is made while another waits.
+TEST(BoundedQueue, AnItemIsMadeOnceThereIsRoom) {
+  BoundedQueue<int> queue(1);
+  std::atomic<int> taken = 0, made = 0;
+  const std::jthread making([&] {
+    fill(queue, [&]() -> std::optional<int> {
+      if (made == kItems) return std::nullopt;
+      EXPECT_LE(made, taken + 1) << "one was taken, or is being taken, for each but the one that waits";
+      return made++;
+    });
+  });
+  drain(queue, [&](int item) {
+    EXPECT_EQ(item, taken);
+    ++taken;
+  });
+  EXPECT_EQ(taken, kItems);
+}
+
 }  // namespace
 }  // namespace catchlight

@@ -206,5 +206,33 @@ TEST_F(VideoOut, Y4mHoldsTheSamplesAndTheRate) {
   EXPECT_THAT(std::string(bytes.begin(), bytes.begin() + 60), HasSubstr("W64 H48 F25:1"));
 }
 
+/// Footage that says to be live, whatever it is.
+class LiveSource : public MediaSource {
+ public:
+  explicit LiveSource(std::unique_ptr<MediaSource> source) : source_(std::move(source)), info_(source_->info()) {
+    info_.is_live = info_.is_one_pass = true;
+  }
+  const SourceInfo& info() const override { return info_; }
+  std::optional<Frame> read() override { return source_->read(); }
+  const AVStream* video_stream() const override { return source_->video_stream(); }
+
+ private:
+  std::unique_ptr<MediaSource> source_;
+  SourceInfo info_;
+};
+
+/// y4m has no times: what is dropped of a camera's frames must not shorten the film.
+TEST_F(VideoOut, Y4mOfLiveFootageRepeatsFramesWhereSomeWereDropped) {
+  ffmpeg("-f lavfi -i testsrc2=size=64x48:rate=25 -frames:v 7 -pix_fmt yuv420p -c:v libx264 '" + path("in.mp4") + "'");
+  LiveSource source(MediaSource::open(path("in.mp4")));
+  const auto sink = MediaSink::open(path("out.y4m"), path("in.mp4"), source, {});
+  while (auto frame = source.read())
+    if (frame->number() % 3 == 0) sink->write(*frame);
+  sink->finish();
+  const auto in = read_all(path("in.mp4")), out = read_all(path("out.y4m"));
+  ASSERT_EQ(out.size(), 7u);
+  for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(samples_of(out[i].picture()), samples_of(in[i / 3 * 3].picture())) << i;
+}
+
 }  // namespace
 }  // namespace catchlight::app::testing
