@@ -29,14 +29,18 @@ bool holds_numbered_stills(const fs::path& folder, const std::string& extension)
   return false;
 }
 
-std::string find_footage(const fs::path& folder) {
+/// Every footage that the folder holds; the first is the recording's.
+std::vector<std::string> footage_in(const fs::path& folder) {
+  std::vector<std::string> found;
   for (const char* name : kVideoNames)
-    if (fs::exists(folder / name)) return (folder / name).string();
+    if (fs::exists(folder / name)) found.push_back((folder / name).string());
   for (const char* extension : kPlateExtensions)
     if (holds_numbered_stills(folder / "plate", extension))
-      return (folder / "plate" / ("%04d" + std::string(extension))).string();
-  throw Error(folder.string() +
-              ": no footage in this folder; expected video.mp4 (or .mkv, .mov, .avi) or plate/0000.png, ... (or .jpg, .exr)");
+      found.push_back((folder / "plate" / ("%04d" + std::string(extension))).string());
+  if (found.empty())
+    throw Error(folder.string() +
+                ": no footage in this folder; expected video.mp4 (or .mkv, .mov, .avi) or plate/0000.png, ... (or .jpg, .exr)");
+  return found;
 }
 
 std::optional<std::string> if_exists(const fs::path& path) {
@@ -56,7 +60,11 @@ Recording open_folder(const std::string& location) {
   Recording recording;
   recording.name = fs::canonical(folder).filename().string();
   recording.folder = location;
-  recording.footage = find_footage(folder);
+  const std::vector<std::string> footage = footage_in(folder);
+  recording.footage = footage.front();
+  if (footage.size() > 1)
+    recording.warnings.push_back("the footage is " + footage[0] + ", not " + footage[1] +
+                                 "; to take that, name it instead of the folder, with --scene and --camera");
   recording.camera_file = if_exists(folder / "camera.yaml");
   recording.poses_csv = if_exists(folder / "poses.csv");
   recording.truth_folder = if_exists(folder / "truth");
@@ -90,6 +98,8 @@ void choose_camera(Recording& recording, const RecordingOverrides& overrides) {
   if (overrides.camera_file) recording.camera_file = overrides.camera_file;
   if (overrides.fov_deg) {
     recording.fov_deg = overrides.fov_deg;
+    if (recording.camera_file)
+      recording.warnings.push_back("--fov goes before " + *recording.camera_file + ", whose lens and distortion are not used");
     recording.camera_file.reset();
   }
   if (!recording.camera_file && !recording.fov_deg)

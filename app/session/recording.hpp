@@ -31,6 +31,7 @@ struct Recording {
   std::optional<std::string> scene_file, camera_file;
   std::optional<double> fov_deg;  ///< where there is no camera file
   SceneSettings scene;
+  std::vector<std::string> warnings;  ///< what of the folder is not used though it could be meant
   std::optional<std::string> poses_csv, truth_folder, mask_folder, expected_toml;  ///< where the folder has them
 };
 

@@ -63,6 +63,11 @@ Session::Session(Recording recording, SessionOptions options, Log& log)
       camera_(camera_for_footage(recording_, footage_->info().width_px, footage_->info().height_px)),
       renderer_(recording_.scene, camera_, {options_.wants_layers, options_.wants_frames}, log) {
   check_range(recording_.footage, options_.range, footage_->info());
+  for (const std::string& warning : recording_.warnings) log_.warn(warning);
+  if (footage_->info().is_interlaced)
+    log_.warn(shown(recording_.footage) +
+              " is interlaced: every other row is of another moment, and edges that move are combs; deinterlace it first, "
+              "as with `ffmpeg -i IN -vf bwdif OUT`");
   if (options_.wants_layers && recodes_every_frame(recording_.scene))
     log_.warn("layers hold the scene's light: neither exposure.mode \"auto\" nor the classic look is in them");
 }

@@ -20,8 +20,9 @@ struct SourceInfo {
   std::int64_t first_number = 0;            ///< number of the first frame
   double frame_rate = 0;                    ///< average
   bool is_sequence = false;
-  bool is_live = false;      ///< a camera or stream, which does not wait: read() gives the newest frame
-  bool is_one_pass = false;  ///< it cannot be read a second time; see is_one_pass()
+  bool is_live = false;        ///< a camera or stream, which does not wait: read() gives the newest frame
+  bool is_one_pass = false;    ///< it cannot be read a second time; see is_one_pass()
+  bool is_interlaced = false;  ///< as the first frame says
   std::string codec, pixel_format;
 };
 

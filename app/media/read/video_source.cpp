@@ -123,6 +123,7 @@ void VideoSource::open_decoder() {
 
 void VideoSource::complete_info() {
   SourceInfo& info = request_.info;
+  info.is_interlaced = pending_->picture().interlaced_frame != 0;
   info.codec = avcodec_get_name(stream_->codecpar->codec_id);
   info.pixel_format = av_get_pix_fmt_name(static_cast<AVPixelFormat>(pending_->picture().format));
   const AVRational rate = av_guess_frame_rate(input_.get(), stream_, nullptr);

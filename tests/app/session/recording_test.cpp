@@ -100,6 +100,30 @@ TEST(RecordingFolder, WithoutCameraSaysWhatSuppliesIt) {
                 "); pass --camera FILE, or --fov DEGREES where it is not calibrated");
 }
 
+TEST(RecordingFolder, FootageThatIsNotTakenIsNamed) {
+  const RecordingFolder folder;
+  EXPECT_TRUE(open_recording(folder.path()).warnings.empty());
+  for (const char* second : {"plate/0000.exr", "plate/0001.png", "video.mov"}) {
+    folder.write(second, "");
+    const Recording recording = open_recording(folder.path());
+    EXPECT_EQ(recording.footage, folder.path("video.mp4"));
+    ASSERT_EQ(recording.warnings.size(), 1u);
+    const std::string other = std::string(second).starts_with("plate") ? "plate/%04d" : second;
+    EXPECT_THAT(recording.warnings[0], HasSubstr("the footage is " + folder.path("video.mp4") + ", not " + folder.path(other)));
+  }
+}
+
+TEST(RecordingFolder, AFieldOfViewThatGoesBeforeACameraFileIsToldOf) {
+  const RecordingFolder folder;
+  RecordingOverrides overrides;
+  overrides.fov_deg = 60;
+  const Recording recording = open_recording(folder.path(), overrides);
+  ASSERT_EQ(recording.warnings.size(), 1u);
+  EXPECT_THAT(recording.warnings[0], HasSubstr("--fov goes before " + folder.path("camera.yaml")));
+  std::filesystem::remove(folder.path("camera.yaml"));
+  EXPECT_TRUE(open_recording(folder.path(), overrides).warnings.empty());
+}
+
 TEST(RecordingFolder, WithoutSceneSaysWhatSuppliesIt) {
   const RecordingFolder folder;
   std::filesystem::remove(folder.path("scene.toml"));

@@ -215,5 +215,13 @@ TEST_F(VideoIn, EveryContainerInUseReadsWithoutFalseAlarm) {
   }
 }
 
+TEST_F(VideoIn, InterlacedFootageIsKnown) {
+  const std::string make = "-f lavfi -i testsrc2=size=64x64:rate=50 -frames:v 8 -pix_fmt yuv420p ";
+  ffmpeg(make + "-c:v libx264 '" + path("rows.mp4") + "'");
+  ffmpeg(make + "-vf tinterlace=interleave_top -flags +ildct+ilme -x264-params tff=1 -c:v libx264 '" + path("fields.mp4") + "'");
+  EXPECT_FALSE(MediaSource::open(path("rows.mp4"))->info().is_interlaced);
+  EXPECT_TRUE(MediaSource::open(path("fields.mp4"))->info().is_interlaced);
+}
+
 }  // namespace
 }  // namespace catchlight::app::testing
