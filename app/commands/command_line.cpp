@@ -6,6 +6,7 @@
 
 #include "app/commands/commands.hpp"
 #include "app/commands/help.hpp"
+#include "app/media/frame_rate.hpp"
 #include "app/settings/parameters.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/util/enum_names.hpp"
@@ -111,8 +112,9 @@ int report_parse_error(const CLI::App& app, const CLI::ParseError& error, Log& l
 void add_recording_options(CLI::App& command, const Context& context, std::string& location, RecordingOverrides& overrides,
                            UsesParameter uses) {
   command
-      .add_option("RECORDING", location,
-                  "Folder with footage, camera.yaml and scene.toml; or a video, a %04d pattern, a camera, a stream, - (stdin)")
+      .add_option(
+          "RECORDING", location,
+          "Folder with footage, camera.yaml and scene.toml; or a video, a %04d or #### pattern, a camera, a stream, - (stdin)")
       ->required();
   command
       .add_option("--scene", overrides.scene_file,
@@ -121,6 +123,11 @@ void add_recording_options(CLI::App& command, const Context& context, std::strin
   command.add_option("--camera", overrides.camera_file, "Camera file, instead of the recording's camera.yaml")->type_name("FILE");
   command.add_option("--fov", overrides.fov_deg, "Horizontal field of view of a camera that is not calibrated")
       ->type_name("DEGREES");
+  command
+      .add_option_function<std::string>(
+          "--fps", [&overrides](const std::string& text) { overrides.fps = frame_rate_from_text(text); },
+          "Frames a second of an image sequence, such as 25, 23.976 or 24000/1001; else what EXR files say, else 24")
+      ->type_name("RATE");
   CLI::Option* strict = command.add_flag("--strict", overrides.strict,
                                          "Refuse a probe with NaN, infinite or negative texels instead of taking them for 0");
   if (!uses("probe.image")) strict->group("");

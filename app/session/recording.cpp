@@ -51,8 +51,7 @@ std::optional<std::string> if_exists(const fs::path& path) {
 /// "clip" for "/a/clip.mp4", "plate" for "/a/plate/%04d.png".
 std::string name_of_footage(const std::string& location) {
   const fs::path path(location);
-  const std::string stem = path.stem().string();
-  return stem.find('%') == std::string::npos ? stem : path.parent_path().filename().string();
+  return names_sequence(location) ? path.parent_path().filename().string() : path.stem().string();
 }
 
 Recording open_folder(const std::string& location) {
@@ -74,8 +73,7 @@ Recording open_folder(const std::string& location) {
 }
 
 Recording open_bare_footage(const std::string& location) {
-  const bool is_plain_path =
-      location != "-" && location.find("://") == std::string::npos && location.find('%') == std::string::npos;
+  const bool is_plain_path = location != "-" && location.find("://") == std::string::npos && !names_sequence(location);
   if (is_plain_path && !fs::exists(location))
     throw Error(location +
                 ": no such file or folder; expected a recording's folder, a video, a %04d pattern, a camera, a stream's address "
@@ -145,6 +143,7 @@ void choose_scene(Recording& recording, const RecordingOverrides& overrides) {
 
 Recording open_recording(const std::string& location, const RecordingOverrides& overrides) {
   Recording recording = fs::is_directory(location) ? open_folder(location) : open_bare_footage(location);
+  recording.fps = overrides.fps;
   choose_camera(recording, overrides);
   choose_scene(recording, overrides);
   return recording;
@@ -166,8 +165,7 @@ std::unique_ptr<MediaSource> open_footage(const Recording& recording, const Warn
     const auto response = load_response(word_or_path(recording.scene, "exposure.response"), warn);
     return response ? std::make_shared<CameraResponse>(*response) : nullptr;
   };
-  constexpr double kSequenceFps = 24;
-  return MediaSource::open(recording.footage, kSequenceFps, known());
+  return MediaSource::open(recording.footage, recording.fps, known());
 }
 
 CameraModel camera_for_footage(const Recording& recording, int width_px, int height_px) {

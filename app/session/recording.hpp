@@ -18,6 +18,7 @@ namespace catchlight::app {
 struct RecordingOverrides {
   std::optional<std::string> scene_file, camera_file;
   std::optional<double> fov_deg;  ///< horizontal, instead of a camera file
+  std::optional<double> fps;      ///< of an image sequence
   bool strict = false;            ///< refuse a probe with bad texels
   Renderer renderer = Renderer::automatic;
   std::string shader_folder;                                    ///< replaces the embedded shaders, where not empty
@@ -30,6 +31,7 @@ struct Recording {
   std::string footage;  ///< what MediaSource::open takes
   std::optional<std::string> scene_file, camera_file;
   std::optional<double> fov_deg;  ///< where there is no camera file
+  std::optional<double> fps;      ///< of an image sequence, where the user says it
   SceneSettings scene;
   std::vector<std::string> warnings;  ///< what of the folder is not used though it could be meant
   std::optional<std::string> poses_csv, truth_folder, mask_folder, expected_toml;  ///< where the folder has them

@@ -27,7 +27,14 @@ bool is_camera(const std::string& location) {
   return location.starts_with("/dev/video");
 }
 
-SourceRequest sequence_request(const std::string& location, const SequencePattern& pattern, double fps) {
+constexpr double kUsualSequenceFps = 24;
+constexpr int kMaxRateTerm = 1001000;  // of 30000/1001 and its like
+
+std::pair<std::string, std::string> frame_rate_option(AVRational rate) {
+  return {"framerate", std::to_string(rate.num) + "/" + std::to_string(rate.den)};
+}
+
+SourceRequest sequence_request(const std::string& location, const SequencePattern& pattern, std::optional<double> fps) {
   const std::vector<std::int64_t> numbers = pattern.existing();
   if (numbers.empty()) throw Error("no file matches '" + location + "' (the first could be '" + pattern.file(1).string() + "')");
   for (std::size_t i = 1; i < numbers.size(); ++i) {
@@ -36,10 +43,10 @@ SourceRequest sequence_request(const std::string& location, const SequencePatter
     throw Error("'" + location + "' has a gap: number " + std::to_string(wanted) + " ('" + pattern.file(wanted).string() +
                 "') is missing between " + std::to_string(numbers.front()) + " and " + std::to_string(numbers.back()));
   }
-  if (fps <= 0) throw UsageError("the frame rate of '" + location + "' must be above 0");
-  SourceRequest request{location, "file:" + location, "image2", {}, {}, {}};
-  request.options = {
-      {"pattern_type", "sequence"}, {"start_number", std::to_string(numbers.front())}, {"framerate", std::to_string(fps)}};
+  if (fps && !(*fps > 0)) throw UsageError("--fps: the frame rate of '" + location + "' must be above 0");
+  SourceRequest request{location, "file:" + pattern.printf_path(), "image2", {}, {}, {}};
+  request.options = {{"pattern_type", "sequence"}, {"start_number", std::to_string(numbers.front())}};
+  request.options.push_back(frame_rate_option(av_d2q(fps.value_or(kUsualSequenceFps), kMaxRateTerm)));
   request.info.is_sequence = true;
   request.info.first_number = numbers.front();
   request.info.frame_count = static_cast<std::int64_t>(numbers.size());
@@ -73,21 +80,25 @@ SourceRequest camera_request(const std::string& location) {
   return live_request(location, "v4l2");
 }
 
-SourceRequest request_of(const std::string& location, double sequence_fps) {
+SourceRequest request_of(const std::string& location, std::optional<double> sequence_fps) {
   if (location == "-") return stdin_request();
   if (is_address(location)) return live_request(location, "");
   if (is_camera(location)) return camera_request(location);
-  const auto pattern = SequencePattern::parse(location);
-  return pattern && !fs::exists(location) ? sequence_request(location, *pattern, sequence_fps) : file_request(location);
+  return names_sequence(location) ? sequence_request(location, *SequencePattern::parse(location), sequence_fps)
+                                  : file_request(location);
 }
 
 }  // namespace
+
+bool names_sequence(const std::string& location) {
+  return SequencePattern::parse(location) && !fs::exists(location);
+}
 
 bool is_one_pass(const std::string& location) {
   return location == "-" || is_address(location) || is_camera(location);
 }
 
-std::unique_ptr<MediaSource> MediaSource::open(const std::string& location, double sequence_fps,
+std::unique_ptr<MediaSource> MediaSource::open(const std::string& location, std::optional<double> sequence_fps,
                                                std::shared_ptr<const CameraResponse> response) {
   capture_ffmpeg_log();
   if (location.empty())
@@ -95,7 +106,13 @@ std::unique_ptr<MediaSource> MediaSource::open(const std::string& location, doub
   SourceRequest request = request_of(location, sequence_fps);
   request.response = std::move(response);
   request.info.is_one_pass = is_one_pass(location);
-  auto source = std::make_unique<VideoSource>(std::move(request));
+  const bool is_sequence = request.info.is_sequence;
+  if (sequence_fps && !is_sequence) throw UsageError("--fps is for image sequences; '" + location + "' says its own frame rate");
+  auto source = std::make_unique<VideoSource>(request);
+  if (const AVRational declared = source->declared_rate(); is_sequence && !sequence_fps && declared.num > 0) {
+    request.options.back() = frame_rate_option(declared);
+    source = std::make_unique<VideoSource>(std::move(request));
+  }
   if (!source->info().is_live) return source;
   return std::make_unique<NewestFrameSource>(std::move(source));
 }

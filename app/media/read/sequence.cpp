@@ -5,26 +5,54 @@
 #include <charconv>
 
 namespace catchlight::app {
+namespace {
+
+constexpr std::size_t kMaxDigits = 18;
+
+struct NumberField {
+  std::size_t begin, end, digits;
+};
+
+/// C's `%d` or `%04d`.
+std::optional<NumberField> percent_field(const std::string& name) {
+  NumberField field{name.find('%'), name.find('%') + 1, 1};
+  while (field.end < name.size() && std::isdigit(static_cast<unsigned char>(name[field.end]))) ++field.end;
+  if (field.end == name.size() || name[field.end] != 'd' || name.find('%', field.end) != std::string::npos) return {};
+  if (field.end > field.begin + 1) {
+    if (name[field.begin + 1] != '0') return {};  // "%4d" pads with spaces
+    const auto [rest, error] = std::from_chars(name.data() + field.begin + 1, name.data() + field.end, field.digits);
+    if (error != std::errc() || field.digits == 0 || field.digits > kMaxDigits) return {};
+  }
+  ++field.end;
+  return field;
+}
+
+/// Nuke's `####`. One `#` alone may be part of a name.
+std::optional<NumberField> hash_field(const std::string& name) {
+  const std::size_t begin = name.find("##");
+  if (begin == std::string::npos) return {};
+  const std::size_t end = std::min(name.find_first_not_of('#', begin), name.size());
+  if (end - begin > kMaxDigits || name.find("##", end) != std::string::npos) return {};
+  return NumberField{begin, end, end - begin};
+}
+
+}  // namespace
 
 std::optional<SequencePattern> SequencePattern::parse(const std::string& path) {
   const std::filesystem::path whole(path);
   const std::string name = whole.filename().string();
-  const std::size_t percent = name.find('%');
-  if (percent == std::string::npos) return {};
-  std::size_t end = percent + 1;
-  while (end < name.size() && std::isdigit(static_cast<unsigned char>(name[end]))) ++end;
-  if (end == name.size() || name[end] != 'd' || name.find('%', end) != std::string::npos) return {};
-
+  const std::optional<NumberField> field = name.find('%') != std::string::npos ? percent_field(name) : hash_field(name);
+  if (!field) return {};
   SequencePattern pattern;
-  if (end > percent + 1) {
-    if (name[percent + 1] != '0') return {};  // "%4d" pads with spaces
-    const auto [rest, error] = std::from_chars(name.data() + percent + 1, name.data() + end, pattern.digits_);
-    if (error != std::errc() || pattern.digits_ == 0 || pattern.digits_ > 18) return {};
-  }
+  pattern.digits_ = field->digits;
   pattern.folder_ = whole.has_parent_path() ? whole.parent_path() : ".";
-  pattern.before_ = name.substr(0, percent);
-  pattern.after_ = name.substr(end + 1);
+  pattern.before_ = name.substr(0, field->begin);
+  pattern.after_ = name.substr(field->end);
   return pattern;
+}
+
+std::string SequencePattern::printf_path() const {
+  return (folder_ / (before_ + "%0" + std::to_string(digits_) + "d" + after_)).string();
 }
 
 std::filesystem::path SequencePattern::file(std::int64_t number) const {

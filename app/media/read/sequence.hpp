@@ -1,4 +1,4 @@
-// Names of numbered image files: `shot.%04d.png`, `img_%d.jpg`. Private to app/media.
+// Names of numbered image files: `shot.%04d.png`, `shot.####.png`, `img_%d.jpg`. Private to app/media.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,16 @@
 
 namespace catchlight::app {
 
-/// A path whose file name holds one `%d` or `%0Nd`.
+/// A path whose file name holds one `%d` or `%0Nd`, or as many `#` (two or more) as there are digits.
 class SequencePattern {
  public:
   /// None where there is no such field, or more than one.
   static std::optional<SequencePattern> parse(const std::string& path);
 
   std::filesystem::path folder() const { return folder_; }
+
+  /// The same path with `%0Nd`, for FFmpeg.
+  std::string printf_path() const;
 
   /// The path of one file; negative numbers have none.
   std::filesystem::path file(std::int64_t number) const;

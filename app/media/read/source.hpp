@@ -23,11 +23,16 @@ struct SourceInfo {
   bool is_live = false;        ///< a camera or stream, which does not wait: read() gives the newest frame
   bool is_one_pass = false;    ///< it cannot be read a second time; see is_one_pass()
   bool is_interlaced = false;  ///< as the first frame says
+  std::string start_timecode;  ///< of the first frame, HH:MM:SS:FF; empty where the footage says none, as the next two
+  std::string title, creation_time;
   std::string codec, pixel_format;
 };
 
 /// Whether what is there can be read once only: a camera, an address or stdin.
 bool is_one_pass(const std::string& location);
+
+/// Whether it names numbered image files: `shot.%04d.png`, `shot.####.png`.
+bool names_sequence(const std::string& location);
 
 /// The footage broke off or is damaged; frames before the damage were delivered.
 struct DamagedMedia : Error {
@@ -37,13 +42,12 @@ struct DamagedMedia : Error {
 /// Decodes strictly in order; never seeks.
 class MediaSource {
  public:
-  /// `location`: a file, a `%04d` pattern (from any number), `/dev/video0`, an address (`rtsp://`, `http://`, ...), or `-` for
-  /// stdin.
-  /// `sequence_fps`: image files do not say how fast they follow each other.
-  /// Throws Error: no such file, no video stream in it, a gap in a sequence (number named); DamagedMedia: not even one frame can
-  /// be decoded.
-  /// `response` is the camera's, where the stream does not say it.
-  static std::unique_ptr<MediaSource> open(const std::string& location, double sequence_fps = 24,
+  /// `location`: a file, a `%04d` or `####` pattern (from any number), `/dev/video0`, an address (`rtsp://`, `http://`, ...), or
+  /// `-` for stdin. `sequence_fps`: how fast image files follow each other; without, EXR's framesPerSecond says so, else it
+  /// is 24. Throws Error: no such file, no video stream in it, a gap in a sequence (number named); DamagedMedia: not even one
+  /// frame can be decoded. UsageError: `sequence_fps` for what is no sequence, or not above 0. `response` is the camera's, where
+  /// the stream does not say it.
+  static std::unique_ptr<MediaSource> open(const std::string& location, std::optional<double> sequence_fps = {},
                                            std::shared_ptr<const CameraResponse> response = {});
   virtual ~MediaSource() = default;
 

@@ -121,8 +121,18 @@ void VideoSource::open_decoder() {
   check_ffmpeg(avcodec_open2(decoder_.get(), codec, nullptr), "cannot decode " + about());
 }
 
+// The video stream's, or the file's.
+std::string VideoSource::tag(const char* name) const {
+  for (const AVDictionary* tags : {stream_->metadata, input_->metadata})
+    if (const AVDictionaryEntry* entry = av_dict_get(tags, name, nullptr, 0)) return entry->value;
+  return "";
+}
+
 void VideoSource::complete_info() {
   SourceInfo& info = request_.info;
+  info.start_timecode = tag("timecode");
+  info.title = tag("title");
+  info.creation_time = tag("creation_time");
   info.is_interlaced = pending_->picture().interlaced_frame != 0;
   info.codec = avcodec_get_name(stream_->codecpar->codec_id);
   info.pixel_format = av_get_pix_fmt_name(static_cast<AVPixelFormat>(pending_->picture().format));

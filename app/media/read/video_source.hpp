@@ -27,6 +27,9 @@ class VideoSource final : public MediaSource {
   const SourceInfo& info() const override { return request_.info; }
   std::optional<Frame> read() override;
   const AVStream* video_stream() const override { return request_.info.is_sequence ? nullptr : stream_; }
+
+  /// The frame rate that a picture declares of itself, as EXR's may; 0/1 where none does.
+  AVRational declared_rate() const { return decoder_->framerate; }
   void stop() override { is_stopped_ = true; }
 
  private:
@@ -34,6 +37,7 @@ class VideoSource final : public MediaSource {
   void choose_stream();
   void open_decoder();
   void complete_info();
+  std::string tag(const char* name) const;
   std::optional<Frame> next();
   FramePtr decode();
   void feed_decoder();

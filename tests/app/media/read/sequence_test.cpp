@@ -39,6 +39,15 @@ TEST(SequencePattern, OnlyOneNumberField) {
   }
 }
 
+TEST(SequencePattern, HashesAreNukesDigits) {
+  const auto pattern = SequencePattern::parse("shots/a.####.png").value();
+  EXPECT_EQ(pattern.file(7), "shots/a.0007.png");
+  EXPECT_EQ(pattern.number_of("a.1001.png"), 1001);
+  EXPECT_EQ(pattern.printf_path(), "shots/a.%04d.png");
+  EXPECT_EQ(SequencePattern::parse("b/take#2.##.png").value().file(3), "b/take#2.03.png");
+  for (const char* path : {"take#2.mp4", "a.##.##.png", "###/a.png"}) EXPECT_FALSE(SequencePattern::parse(path)) << path;
+}
+
 class Sequence : public MediaTest {
  protected:
   void make(const std::string& pattern, int first, int count, const std::string& options = "") {
@@ -70,6 +79,26 @@ TEST_F(Sequence, TheRateIsWhatTheCallerSays) {
   EXPECT_NEAR(source->info().frame_rate, 30000.0 / 1001, 1e-6);
   EXPECT_NEAR(read_all(*source).back().time_s(), 2 * 1001 / 30000.0, 1e-6);
   EXPECT_THROW(MediaSource::open(path("f.%04d.png"), 0), UsageError);
+}
+
+TEST_F(Sequence, HashesReadAndWriteTheSameFiles) {
+  make("f.%04d.png", 1001, 2);
+  EXPECT_EQ(read_all(path("f.####.png")).size(), 2u);
+  pass_through(path("f.####.png"), path("o.####.png"));
+  EXPECT_THAT(files(), ElementsAre("f.1001.png", "f.1002.png", "o.1001.png", "o.1002.png"));
+}
+
+TEST_F(Sequence, ExrFilesSayTheirRateUnlessTheCallerDoes) {
+  make("f.%02d.exr", 1, 3, "-vf format=gbrpf32le -r 30000/1001");
+  EXPECT_NEAR(MediaSource::open(path("f.%02d.exr"))->info().frame_rate, 30000.0 / 1001, 1e-9);
+  EXPECT_NEAR(read_all(path("f.%02d.exr")).back().time_s(), 2 * 1001 / 30000.0, 1e-9);
+  EXPECT_EQ(MediaSource::open(path("f.%02d.exr"), 25)->info().frame_rate, 25);
+}
+
+TEST_F(Sequence, ARateForAVideoIsRefused) {
+  make("video.mp4", 0, 3);
+  EXPECT_THAT(message_of<UsageError>([&] { MediaSource::open(path("video.mp4"), 25); }),
+              HasSubstr("--fps is for image sequences"));
 }
 
 TEST_F(Sequence, AGapIsNamed) {

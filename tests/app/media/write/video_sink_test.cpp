@@ -111,6 +111,24 @@ TEST_F(VideoOut, ColourTagsAndAspectAreWritten) {
   }
 }
 
+TEST_F(VideoOut, TitleCreationTimeAndTimecodeAreCarriedOver) {
+  ffmpeg(
+      "-f lavfi -i testsrc2=size=64x48:rate=25 -frames:v 30 -timecode 01:02:03:20 -metadata title='Shot 7' -metadata "
+      "creation_time=2024-05-06T07:08:09Z -c:v libx264 '" +
+      path("in.mov") + "'");
+  pass_through(path("in.mov"), path("whole.mov"));
+  pass_through(path("in.mov"), path("whole.mp4"));
+  pass_through(path("in.mov"), path("part.mov"), {}, 10, 20);
+  for (const char* name : {"whole.mov", "whole.mp4", "part.mov"}) {
+    const std::string tags = ffprobe(path(name), "-show_entries format_tags=title,creation_time");
+    EXPECT_THAT(tags, HasSubstr("Shot 7")) << name;
+    EXPECT_THAT(tags, HasSubstr("2024-05-06T07:08:09")) << name;
+    EXPECT_THAT(ffprobe(path(name), "-select_streams v -show_entries stream_tags=timecode"),
+                HasSubstr(std::string(name) == "part.mov" ? "01:02:04:05" : "01:02:03:20"))
+        << name;
+  }
+}
+
 TEST_F(VideoOut, FullRangeAndDepthAreKept) {
   for (const char* format : {"yuv420p", "yuv422p", "yuv444p", "yuv420p10le", "yuv422p10le"}) {
     SCOPED_TRACE(format);
