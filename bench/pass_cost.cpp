@@ -98,7 +98,7 @@ void time_encoding(const std::string& folder, const std::vector<FrameJob>& jobs,
   const std::string path = std::filesystem::temp_directory_path() / ("pass_cost." + std::to_string(getpid()) + ".mp4");
   const auto output = open_output(path, recording.footage, *source, {.codec = {}, .crf = 23, .frames = {}});
   const double start_ms = processor_ms();
-  for (const FrameJob& job : jobs) output->write(job.image, job.result);
+  for (const FrameJob& job : jobs) output->write(job.image, job.result, {});
   output->finish();
   times["encode"].push_back((processor_ms() - start_ms) / static_cast<double>(jobs.size()));
   std::filesystem::remove(path);

@@ -11,6 +11,9 @@
 #include "app/track_export/track_export.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/error.hpp"
+#include "catchlight/rigid_transform.hpp"
+#include "catchlight/util/enum_names.hpp"
+#include "render/probe/probe.hpp"
 
 namespace catchlight::app {
 
@@ -20,6 +23,7 @@ struct Options {
   std::string recording, output, track_in, track_out, report, frames;
   RecordingOverrides overrides;
   SinkOptions sink;
+  LayerStyle style = LayerStyle::plain;
   bool causal = false, debug = false, allow_lost = false;
 };
 
@@ -37,11 +41,17 @@ void check(const Options& options) {
   if (!options.report.empty()) check_output_path(options.report, options.sink.overwrite);
 }
 
+LayerOptions layer_options(const Session& session, LayerStyle style) {
+  const glm::dmat3 tag_from_world = render::tag_from_probe(session.settings().probe.up, 0);
+  return {style, session.camera(), glm::transpose(tag_from_world), "Catchlight " CATCHLIGHT_VERSION};
+}
+
 void draw_frames(Session& session, FrameOutput& output, TrackLines* lines, bool draws_debug) {
   run_stages(session, [&](FrameJob& job) {
     if (lines != nullptr) lines->write(job.track);
     if (draws_debug) draw_debug(job.image, job.track, session.camera(), session.settings().tag.size_m, job.result);
-    session.measure("encode", [&] { output.write(job.image, job.result); });
+    const std::optional<RigidTransform> pose = job.track.found ? std::optional(job.track.camera_from_tag) : std::nullopt;
+    session.measure("encode", [&] { output.write(job.image, job.result, pose); });
   });
   output.finish();
 }
@@ -66,7 +76,8 @@ void overlay(const Options& options, Context& context) {
                   context.log);
   SinkOptions sink = options.sink;
   sink.frames = range;
-  const std::unique_ptr<FrameOutput> output = open_output(options.output, session.recording().footage, session.footage(), sink);
+  const std::unique_ptr<FrameOutput> output =
+      open_output(options.output, session.recording().footage, session.footage(), sink, layer_options(session, options.style));
   const Shot shot{session.camera(), session.settings(), session.footage().info().is_sequence};
   std::optional<TrackLines> lines;
   if (has_lines) lines.emplace(options.track_out, shot, options.sink.overwrite);
@@ -96,6 +107,11 @@ void set_up_overlay(CLI::App& command, Context& context) {
   command.add_flag("--debug", options->debug, "draw the tag's corners, axes, state and residual over the frames");
   command.add_flag("--allow-lost", options->allow_lost, "succeed also where the tag is never found");
   command.add_option("--report", options->report, "write what was done and how long it took, JSON");
+  command
+      .add_option_function<std::string>(
+          "--layers-for", [options](const std::string& name) { options->style = value_named<LayerStyle>(name).value(); },
+          "Layers (.exr) for nuke or blender: normals in its axes, and motion vectors; docs/conventions.md says which")
+      ->check(CLI::IsMember({"nuke", "blender"}));
   command.add_option("--codec", options->sink.codec, "h264 or ffv1, instead of what the extension says")
       ->check(CLI::IsMember({"h264", "ffv1"}));
   command

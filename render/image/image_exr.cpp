@@ -2,14 +2,17 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfChromaticities.h>
 #include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfFramesPerSecond.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfThreading.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <string_view>
@@ -148,12 +151,32 @@ std::vector<Plane> planes_of(const std::vector<ExrLayer>& layers) {
   return planes;
 }
 
-void write(const std::string& path, const std::vector<ExrLayer>& layers, std::optional<ExrEnvmap> envmap) {
+Imath::M44f row_vector_matrix(const glm::dmat4& matrix) {
+  Imath::M44f transposed;  // OpenEXR multiplies rows by matrices
+  for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 4; ++row) transposed[column][row] = static_cast<float>(matrix[column][row]);
+  return transposed;
+}
+
+void add_attributes(const ExrAttributes& attributes, Imf::Header& header) {
+  if (!attributes.software.empty()) header.insert("software", Imf::StringAttribute(attributes.software));
+  if (attributes.frames_per_second > 0) Imf::addFramesPerSecond(header, Imf::guessExactFps(attributes.frames_per_second));
+  int hours, minutes, seconds, frame;
+  char before_frame;
+  if (std::sscanf(attributes.time_code.c_str(), "%d:%d:%d%c%d", &hours, &minutes, &seconds, &before_frame, &frame) == 5)
+    Imf::addTimeCode(header, Imf::TimeCode(hours, minutes, seconds, frame, before_frame == ';'));
+  if (attributes.camera_from_world) Imf::addWorldToCamera(header, row_vector_matrix(*attributes.camera_from_world));
+  if (attributes.clip_from_world) Imf::addWorldToNDC(header, row_vector_matrix(*attributes.clip_from_world));
+}
+
+void write(const std::string& path, const std::vector<ExrLayer>& layers, std::optional<ExrEnvmap> envmap,
+           const ExrAttributes& attributes) {
   const int width = layers.front().image->width, height = layers.front().image->height;
   Imf::Header header(width, height);
   header.compression() = Imf::ZIP_COMPRESSION;
   Imf::addChromaticities(header, Imf::Chromaticities());
   if (envmap) Imf::addEnvmap(header, *envmap == ExrEnvmap::cube ? Imf::ENVMAP_CUBE : Imf::ENVMAP_LATLONG);
+  add_attributes(attributes, header);
   const std::vector<Plane> planes = planes_of(layers);
   Imf::FrameBuffer frame;
   for (const Plane& plane : planes) {
@@ -192,7 +215,8 @@ Image read_exr(const std::string& path) {
   return read_exr_picture(path).image;
 }
 
-void write_exr(const std::string& path, const std::vector<ExrLayer>& layers, std::optional<ExrEnvmap> envmap) {
+void write_exr(const std::string& path, const std::vector<ExrLayer>& layers, std::optional<ExrEnvmap> envmap,
+               const ExrAttributes& attributes) {
   if (layers.empty()) throw std::invalid_argument("write_exr: no layers for " + path);
   for (const ExrLayer& layer : layers) {
     const Image& image = *layer.image;
@@ -203,7 +227,7 @@ void write_exr(const std::string& path, const std::vector<ExrLayer>& layers, std
   }
   PendingFile file(path);
   try {
-    write(file.pending_path(), layers, envmap);
+    write(file.pending_path(), layers, envmap, attributes);
   } catch (const std::exception& error) {
     throw Error(path + ": cannot be written: " + error.what());
   }

@@ -1,6 +1,7 @@
 // Float images on disk: OpenEXR (also with layers) and Radiance RGBE.
 #pragma once
 
+#include <glm/glm.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,9 +32,19 @@ struct ExrLayer {
   bool as_float = false;  ///< 32 bits (depth, positions); else half, with values beyond +-65504 held there
 };
 
+/// OpenEXR's standard attributes of a frame of a shot. What is empty, or 0, is not written.
+struct ExrAttributes {
+  std::string software = {};
+  double frames_per_second = 0;
+  std::string time_code = {};                        ///< HH:MM:SS:FF, or with a ; before FF for drop frame
+  std::optional<glm::dmat4> camera_from_world = {};  ///< "worldToCamera": the camera's y up, looking along its -z
+  std::optional<glm::dmat4> clip_from_world = {};    ///< "worldToNDC": -1 to 1 across the picture, y up
+};
+
 /// Writes layers, all of one size. The file is a PendingFile until it is whole; ZIP; attribute chromaticities = Rec. 709.
 /// Throws Error naming the file where it cannot be written.
-void write_exr(const std::string& path, const std::vector<ExrLayer>& layers, std::optional<ExrEnvmap> envmap = {});
+void write_exr(const std::string& path, const std::vector<ExrLayer>& layers, std::optional<ExrEnvmap> envmap = {},
+               const ExrAttributes& attributes = {});
 
 /// Reads Radiance .hdr (RGBE), any of the eight orientations, with its EXPOSURE lines divided out. Throws Error naming the file.
 Image read_hdr(const std::string& path);

@@ -4,7 +4,10 @@
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfStringAttribute.h>
 
+#include <cstdio>
 #include <stdexcept>
 #include <vector>
 
@@ -26,7 +29,37 @@ Image read_channels(Imf::InputFile& file, const std::vector<std::string>& names)
   return image;
 }
 
+glm::dmat4 column_vector_matrix(const Imath::M44f& matrix) {
+  glm::dmat4 result;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) result[i][j] = matrix[i][j];
+  return result;
+}
+
 }  // namespace
+
+Image read_channels(const std::string& path, const std::vector<std::string>& names) {
+  Imf::InputFile file(path.c_str());
+  return read_channels(file, names);
+}
+
+render::ExrAttributes read_attributes(const std::string& path) {
+  const Imf::InputFile file(path.c_str());
+  const Imf::Header& header = file.header();
+  render::ExrAttributes attributes;
+  if (const auto* software = header.findTypedAttribute<Imf::StringAttribute>("software")) attributes.software = software->value();
+  if (Imf::hasFramesPerSecond(header)) attributes.frames_per_second = static_cast<double>(Imf::framesPerSecond(header));
+  if (Imf::hasTimeCode(header)) {
+    const Imf::TimeCode& code = Imf::timeCode(header);
+    char text[32];
+    std::snprintf(text, sizeof text, "%02d:%02d:%02d%c%02d", code.hours(), code.minutes(), code.seconds(),
+                  code.dropFrame() ? ';' : ':', code.frame());
+    attributes.time_code = text;
+  }
+  if (Imf::hasWorldToCamera(header)) attributes.camera_from_world = column_vector_matrix(Imf::worldToCamera(header));
+  if (Imf::hasWorldToNDC(header)) attributes.clip_from_world = column_vector_matrix(Imf::worldToNDC(header));
+  return attributes;
+}
 
 LayersFile read_layers(const std::string& path) {
   Imf::InputFile file(path.c_str());

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "catchlight/composite.hpp"
 #include "catchlight/image.hpp"
+#include "render/image/image_io.hpp"
 
 namespace catchlight::tests {
 
@@ -15,5 +17,11 @@ struct LayersFile {
 
 /// Throws what OpenEXR does where a channel is missing.
 LayersFile read_layers(const std::string& path);
+
+/// Channels by their whole names. Throws as read_layers.
+Image read_channels(const std::string& path, const std::vector<std::string>& names);
+
+/// The attributes of a frame of a shot; those that the file lacks are empty.
+render::ExrAttributes read_attributes(const std::string& path);
 
 }  // namespace catchlight::tests

@@ -116,10 +116,7 @@ std::unique_ptr<MediaSink> MediaSink::open(const std::string& path, const std::s
                            .codec = codec_of(path, container, options.codec),
                            .audio_location = "",
                            .frame_rate = frame_rate_of(source),
-                           .first_number = source.info().first_number,
-                           .start_timecode = source.info().start_timecode,
-                           .title = source.info().title,
-                           .creation_time = source.info().creation_time,
+                           .source = source.info(),
                            .options = options};
   if (request.codec == VideoCodec::h264) check_quality(options);
   request.options.pixel_format = pixel_format_for(request.codec, request.muxer, source.info(), options);

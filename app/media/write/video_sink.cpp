@@ -1,8 +1,9 @@
 #include "app/media/write/video_sink.hpp"
 
+#include "app/media/write/timecode.hpp"
+
 extern "C" {
 #include <libavutil/opt.h>
-#include <libavutil/timecode.h>
 }
 
 #include "catchlight/error.hpp"
@@ -37,7 +38,7 @@ void VideoSink::begin(const Frame& first) {
   set_tags(first);
   write_header();
   const bool allows_lead = request_.muxer == "mp4" || request_.muxer == "mov";
-  if (audio_) audio_->begin(source_us(start_pts_), allows_lead && first.number() == request_.first_number);
+  if (audio_) audio_->begin(source_us(start_pts_), allows_lead && first.number() == request_.source.first_number);
 }
 
 // The timecode is the first written frame's. Rates that timecodes do not know would make the header fail.
@@ -45,15 +46,9 @@ void VideoSink::set_tags(const Frame& first) {
   const auto set = [](AVDictionary** tags, const char* name, const std::string& value) {
     if (!value.empty()) av_dict_set(tags, name, value.c_str(), 0);
   };
-  set(&output_->metadata, "title", request_.title);
-  set(&output_->metadata, "creation_time", request_.creation_time);
-  AVTimecode timecode;
-  if (request_.start_timecode.empty() || av_timecode_check_frame_rate(request_.frame_rate) < 0 ||
-      av_timecode_init_from_string(&timecode, request_.frame_rate, request_.start_timecode.c_str(), nullptr) < 0)
-    return;
-  char text[AV_TIMECODE_STR_SIZE];
-  set(&stream_->metadata, "timecode",
-      av_timecode_make_string(&timecode, text, static_cast<int>(first.number() - request_.first_number)));
+  set(&output_->metadata, "title", request_.source.title);
+  set(&output_->metadata, "creation_time", request_.source.creation_time);
+  set(&stream_->metadata, "timecode", timecode_at(request_.source, first.number()));
 }
 
 void VideoSink::write_header() {

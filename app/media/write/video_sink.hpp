@@ -16,8 +16,7 @@ struct VideoSinkRequest {
   VideoCodec codec = VideoCodec::h264;
   std::string audio_location;  ///< empty: no audio
   AVRational frame_rate{24, 1};
-  std::int64_t first_number = 0;                     ///< the source's first frame number
-  std::string start_timecode, title, creation_time;  ///< the source's; see SourceInfo
+  SourceInfo source;
   bool fills_gaps = false;  ///< a frame is repeated until the next one's time: for live footage in a file without times
   SinkOptions options;
 };
