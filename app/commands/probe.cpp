@@ -25,8 +25,8 @@ namespace catchlight::app {
 namespace {
 
 struct ProbeArguments {
-  std::string input, layout_in, output, layout_out = "latlong";
-  bool strict = false, overwrite = false;
+  std::string input, layout_in, output, layout_out;
+  bool strict = false, overwrite = false, mirror = false;
   int width_px = 0, size_px = 256, preview_px = 1200, bands = 3;
   double ev = 0, yaw_deg = 0;
   std::string lights, rest;
@@ -129,12 +129,15 @@ void split(const ProbeArguments& arguments, Log& log) {
 }
 
 void convert(const ProbeArguments& arguments, Log& log) {
-  const render::ProbeLayout layout = render::probe_layout_from_name(arguments.layout_out);
+  std::optional<render::ProbeLayout> layout;
+  if (!arguments.layout_out.empty()) layout = render::probe_layout_from_name(arguments.layout_out);
   if (!arguments.output.ends_with(".exr") && !arguments.output.ends_with(".hdr"))
     throw UsageError(arguments.output + ": expected a name that ends in .exr or .hdr");
   refuse_same_file(arguments.output, arguments.input);
   PendingFile output = pending_output(arguments.output, arguments.overwrite);
-  render::save_probe(output.pending_path(), render::convert(load(arguments, log), layout, arguments.width_px));
+  render::Probe probe = load(arguments, log);
+  if (arguments.mirror) probe = render::mirrored(probe);
+  render::save_probe(output.pending_path(), render::convert(probe, layout.value_or(probe.layout), arguments.width_px));
   output.commit();
 }
 
@@ -214,7 +217,7 @@ CLI::App& add_probe_command(CLI::App& parent, const char* name, const char* help
   command.fallthrough();
   command.add_option("FILE", arguments->input, "OpenEXR or Radiance HDR")->required();
   command.add_option("--layout-in", arguments->layout_in,
-                     "Layout of FILE, where it does not say: latlong, angular, mirror-ball, cube-cross, cube");
+                     "Layout of FILE, where it does not say: " + quoted_list(name_list<render::ProbeLayout>()));
   command.add_flag("--strict", arguments->strict, "Refuse NaN, infinite and negative texels instead of taking them as 0");
   command.callback([arguments, run, &context] { run(*arguments, context.log); });
   return command;
@@ -293,12 +296,15 @@ void set_up_probe(CLI::App& command, Context& context) {
 
   CLI::App& converted = add_probe_command(command, "convert", "The same light in another layout", arguments, convert, context);
   converted.add_option("OUT", arguments->output, "OpenEXR or Radiance HDR, by extension")->required();
-  converted.add_option("--layout", arguments->layout_out, "latlong, angular, mirror-ball, cube-cross or cube")->required();
+  converted.add_option("--layout", arguments->layout_out,
+                       "Layout of OUT, where not FILE's own: " + quoted_list(name_list<render::ProbeLayout>()));
+  converted.add_flag("--mirror", arguments->mirror, "Exchange left and right, for a probe in which writing is mirrored");
   converted.add_option("--width", arguments->width_px, "Width of OUT in texels; 0 keeps the angular resolution")
       ->check(CLI::Range(0, 16384));
   add_overwrite(converted, *arguments);
-  show_examples(converted, {"catchlight probe convert room.exr cross.hdr --layout cube-cross",
-                            "catchlight probe convert ball.hdr room.exr --layout-in angular --layout latlong --width 2048"});
+  show_examples(converted,
+                {"catchlight probe convert room.exr cross.hdr --layout cube-cross",
+                 "catchlight probe convert map.hdr room.exr --layout-in angular-inside --layout latlong --width 2048"});
 
   CLI::App& sh = add_probe_command(command, "sh", "Coefficients of spherical harmonics as text", arguments, write_sh, context);
   add_bands(sh, arguments->bands);

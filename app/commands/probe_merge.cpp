@@ -126,7 +126,7 @@ void add_probe_merge(CLI::App& parent, Context& context) {
   add_views(command, *options);
   CLI::Option* tag_size = add_orientation(command, *options);
   command.add_option("-o,--output", options->output, "OpenEXR or Radiance HDR, by extension")->required();
-  command.add_option("--layout", options->layout, "latlong, angular, mirror-ball, cube-cross or cube")->capture_default_str();
+  command.add_option("--layout", options->layout, quoted_list(name_list<render::ProbeLayout>()))->capture_default_str();
   command.add_option("--width", options->request.width_px, "in texels; 0: as fine as the ball")->check(CLI::Range(0, 16384));
   command
       .add_option("--photographer-deg", options->request.photographer_deg,

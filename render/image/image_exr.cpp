@@ -103,7 +103,7 @@ ExrPicture read(const std::string& path) {
   }
   const std::vector<std::string> names = channels_to_read(path, header.channels());
   const int channels = std::max<int>(3, static_cast<int>(names.size()));
-  ExrPicture picture{Image(static_cast<int>(width), static_cast<int>(height), channels), {}};
+  ExrPicture picture{Image(static_cast<int>(width), static_cast<int>(height), channels), {}, {}};
   const std::size_t pixel_bytes = sizeof(float) * channels, row_bytes = pixel_bytes * width;
   Imf::FrameBuffer frame;
   for (std::size_t c = 0; c < names.size(); ++c) {
@@ -119,6 +119,7 @@ ExrPicture read(const std::string& path) {
     convert_to_rec709(picture.image, Imf::chromaticities(header));
   }
   if (Imf::hasEnvmap(header)) picture.envmap = Imf::envmap(header) == Imf::ENVMAP_CUBE ? ExrEnvmap::cube : ExrEnvmap::latlong;
+  if (const auto* layout = header.findTypedAttribute<Imf::StringAttribute>(kProbeLayout)) picture.probe_layout = layout->value();
   return picture;
 }
 
@@ -160,6 +161,7 @@ Imath::M44f row_vector_matrix(const glm::dmat4& matrix) {
 
 void add_attributes(const ExrAttributes& attributes, Imf::Header& header) {
   if (!attributes.software.empty()) header.insert("software", Imf::StringAttribute(attributes.software));
+  if (!attributes.probe_layout.empty()) header.insert(kProbeLayout, Imf::StringAttribute(attributes.probe_layout));
   if (attributes.frames_per_second > 0) Imf::addFramesPerSecond(header, Imf::guessExactFps(attributes.frames_per_second));
   int hours, minutes, seconds, frame;
   char before_frame;

@@ -22,6 +22,7 @@ struct Header {
   char first_axis = 'Y', second_axis = 'X';
   bool first_positive = false, second_positive = true;
   double exposure = 1.0;
+  std::string probe_layout;
 };
 
 [[noreturn]] void refuse(const std::string& path, const std::string& why) {
@@ -36,6 +37,7 @@ Header read_header(std::istream& in, const std::string& path) {
     if (line.rfind("FORMAT=", 0) == 0 && line.find("32-bit_rle_rgbe") == std::string::npos)
       refuse(path, "expected FORMAT=32-bit_rle_rgbe, found " + line);
     if (line.rfind("EXPOSURE=", 0) == 0) header.exposure *= std::strtod(line.c_str() + 9, nullptr);
+    if (line.starts_with(std::string(kProbeLayout) + '=')) header.probe_layout = line.substr(line.find('=') + 1);
   }
   if (!std::getline(in, line)) refuse(path, "the header never ends");
   char first_sign = 0, second_sign = 0;
@@ -139,7 +141,7 @@ void write_scanline(std::ostream& out, const std::vector<Rgbe>& line) {
 
 }  // namespace
 
-Image read_hdr(const std::string& path) {
+ExrPicture read_hdr_picture(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in) throw Error(path + ": cannot be opened");
   const Header header = read_header(in, path);
@@ -159,13 +161,19 @@ Image read_hdr(const std::string& path) {
       for (int c = 0; c < 3; ++c) pixel[c] = static_cast<float>(line[k][c] * scale);
     }
   }
-  return image;
+  return {std::move(image), {}, header.probe_layout};
 }
 
-void write_hdr(const std::string& path, const Image& image) {
+Image read_hdr(const std::string& path) {
+  return read_hdr_picture(path).image;
+}
+
+void write_hdr(const std::string& path, const Image& image, const std::string& probe_layout) {
   PendingFile file(path);
   std::ofstream out(file.pending_path(), std::ios::binary);
-  out << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " << image.height << " +X " << image.width << "\n";
+  out << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n";
+  if (!probe_layout.empty()) out << kProbeLayout << '=' << probe_layout << '\n';
+  out << "\n-Y " << image.height << " +X " << image.width << "\n";
   std::vector<Rgbe> line(image.width);
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) line[x] = encode(image.pixel(x, y));

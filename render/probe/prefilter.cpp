@@ -25,6 +25,7 @@ int face_size_for(const Probe& probe, int wanted) {
     switch (probe.layout) {
       case ProbeLayout::latlong:
       case ProbeLayout::angular:
+      case ProbeLayout::angular_inside:
       case ProbeLayout::mirror_ball:
         size = probe.image.width / kPi;
         break;

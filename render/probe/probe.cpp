@@ -105,6 +105,7 @@ double texels_per_turn(ProbeLayout layout, int width) {
     case ProbeLayout::latlong:
       return width - 1;
     case ProbeLayout::angular:
+    case ProbeLayout::angular_inside:
     case ProbeLayout::mirror_ball:
       return width;  // the ball's middle has pi/2 times as few, its rim is far denser
     case ProbeLayout::cube_cross:
@@ -123,6 +124,7 @@ glm::ivec2 size_with(ProbeLayout layout, double per_turn) {
       return {2 * height, height};
     }
     case ProbeLayout::angular:
+    case ProbeLayout::angular_inside:
     case ProbeLayout::mirror_ball:
       return glm::ivec2(std::max(4, static_cast<int>(std::lround(per_turn))));
     case ProbeLayout::cube_cross:
@@ -138,6 +140,7 @@ glm::ivec2 size_of_width(ProbeLayout layout, int width) {
     case ProbeLayout::latlong:
       return {width, (width + 1) / 2};
     case ProbeLayout::angular:
+    case ProbeLayout::angular_inside:
     case ProbeLayout::mirror_ball:
       return {width, width};
     case ProbeLayout::cube_cross:
@@ -168,6 +171,18 @@ void sample(const Probe& probe, const Coordinates3& directions, std::span<glm::v
   texels_from_directions(probe.layout, probe.image.width, probe.image.height, directions, texels);
   for (std::size_t i = 0; i < radiance.size(); ++i)
     radiance[i] = sample_latlong(probe.image, glm::dvec2(texels.x[i], texels.y[i]));
+}
+
+Probe mirrored(const Probe& probe) {
+  const Image& image = probe.image;
+  Probe result{Image(image.width, image.height), probe.layout};
+  for (int y = 0; y < image.height; ++y) {
+    // OpenEXR's cube has +x and -x one above the other; all other layouts have them right and left of their middle.
+    const int side = image.width, face = y / side;
+    const int from = probe.layout == ProbeLayout::cube && face < 2 ? (1 - face) * side + y % side : y;
+    for (int x = 0; x < image.width; ++x) std::copy_n(image.pixel(image.width - 1 - x, from), 3, result.image.pixel(x, y));
+  }
+  return result;
 }
 
 Probe convert(const Probe& probe, ProbeLayout layout, int width) {

@@ -30,18 +30,22 @@ void sample(const Probe& probe, const Coordinates3& directions, std::span<glm::v
 /// The same light in another layout, averaged over each texel. `width` 0 keeps the angular resolution at the equator.
 Probe convert(const Probe& probe, ProbeLayout layout, int width = 0);
 
+/// The same place in a mirror: x and -x exchanged, texel by texel.
+Probe mirrored(const Probe& probe);
+
 /// Texels that look in one direction (a pole's row, both columns of +-180 degrees, borders of OpenEXR's cube faces) get their
 /// mean, weighted by solid angle: no seam can show and no light is lost.
 void weld_seams(Probe& probe);
 
 struct ProbeLoadOptions {
-  std::optional<ProbeLayout>
-      layout;  ///< empty: the file's envmap attribute, else by shape (2:1 latlong, 3:4 cube-cross, 1:6 cube), else an error
-  bool strict = false;  ///< refuse NaN, infinite or negative texels instead of treating them as 0
+  std::optional<ProbeLayout> layout;  ///< empty: as save_probe noted, else the file's envmap attribute, else by shape (2:1
+                                      ///< latlong, 3:4, 4:3 and 6:1 cube-cross, 1:6 cube), else an error
+  bool strict = false;                ///< refuse NaN, infinite or negative texels instead of treating them as 0
 };
 
-/// Reads OpenEXR or Radiance HDR. Warns once with count and first position of bad texels. Texels that look in one direction
-/// (seams, poles) get their common mean. Throws Error (file named) otherwise.
+/// Reads OpenEXR or Radiance HDR. A cross that lies (4:3) and a row of OpenGL's faces (6:1) become a cube-cross. Warns once with
+/// count and first position of bad texels. Texels that look in one direction (seams, poles) get their common mean. Throws Error
+/// (file named) otherwise.
 Probe load_probe(const std::string& path, const ProbeLoadOptions& options, const WarningHandler& warn);
 
 enum class ExrPrecision {
@@ -50,7 +54,7 @@ enum class ExrPrecision {
 };
 
 /// Writes OpenEXR (with the envmap attribute where OpenEXR knows the layout) or Radiance HDR (of its own precision), by
-/// extension.
+/// extension. The file says the layout, for load_probe.
 void save_probe(const std::string& path, const Probe& probe, ExrPrecision precision = ExrPrecision::enough);
 
 /// c_i = sum of radiance * y_i * solid angle over all texels; no sampling noise.

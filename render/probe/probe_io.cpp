@@ -36,7 +36,7 @@ ExrPicture read_picture(const std::string& path) {
     case FileKind::exr:
       return read_exr_picture(path);
     case FileKind::hdr:
-      return {read_hdr(path), {}};
+      return read_hdr_picture(path);
     case FileKind::display:
       throw Error(path + ": a light probe needs high dynamic range; expected OpenEXR or Radiance HDR, found an 8-bit picture");
     case FileKind::unknown:
@@ -46,18 +46,63 @@ ExrPicture read_picture(const std::string& path) {
               ": is neither OpenEXR nor Radiance HDR, whatever its name says; expected a light probe of one of these kinds");
 }
 
+/// The end of a message that asks for the layout, by the options that say it.
+std::string name_it() {
+  return "name it: " + quoted_list(name_list<ProbeLayout>()) + " (probe.layout of a scene, --layout-in of `catchlight probe`)";
+}
+
+std::string size_text(const Image& image) {
+  return std::to_string(image.width) + " x " + std::to_string(image.height) + " texels";
+}
+
+/// Faces side by side, as many programs write them: a cross that lies (-x +z +x -z, with +y above and -y below +z), or a row of
+/// OpenGL's faces. Faces of another shape are none of these.
+bool is_lying_cross(const Image& image) {
+  return image.width % 4 == 0 && image.width / 4 * 3 == image.height;
+}
+bool is_row_of_faces(const Image& image) {
+  return image.width == 6 * image.height;
+}
+
+/// The same faces where ProbeLayout::cube_cross has them.
+Image standing_cross(const Image& faces) {
+  constexpr std::array<glm::ivec2, 6> kLying{{{2, 1}, {0, 1}, {1, 0}, {1, 2}, {1, 1}, {3, 1}}};
+  const bool is_row = is_row_of_faces(faces);
+  const int size = is_row ? faces.height : faces.height / 3;
+  Image cross(3 * size, 4 * size, faces.channels);
+  for (int i = 0; i < 6; ++i) {
+    const CubeFace& face = faces_of(ProbeLayout::cube_cross)[i];
+    const glm::ivec2 from = is_row ? glm::ivec2(i, 0) : kLying[i];
+    const bool is_turned = face.right != gl_cube_faces()[i].right;  // by half a turn: -z, so that the column folds down
+    for (int y = 0; y < size; ++y)
+      for (int x = 0; x < size; ++x) {
+        const int source_x = is_turned ? size - 1 - x : x, source_y = is_turned ? size - 1 - y : y;
+        std::copy_n(faces.pixel(from.x * size + source_x, from.y * size + source_y), faces.channels,
+                    cross.pixel(face.column * size + x, face.row * size + y));
+      }
+  }
+  return cross;
+}
+
 ProbeLayout layout_by_shape(const std::string& path, const Image& image) {
   if (image.width == 2 * image.height) return ProbeLayout::latlong;
   if (image.width % 3 == 0 && image.width / 3 * 4 == image.height) return ProbeLayout::cube_cross;
+  if (is_lying_cross(image) || is_row_of_faces(image)) return ProbeLayout::cube_cross;
   if (image.height == 6 * image.width) return ProbeLayout::cube;
-  throw Error(path + ": the layout of " + std::to_string(image.width) + " x " + std::to_string(image.height) +
-              " texels is not clear; name it (latlong, angular, mirror-ball, cube-cross or cube)");
+  throw Error(path + ": the layout of " + size_text(image) + " is not clear; " + name_it());
 }
 
 ProbeLayout layout_of(const std::string& path, const ExrPicture& picture, const ProbeLoadOptions& options) {
+  const Image& image = picture.image;
+  // What is square is hardly a panorama: drawn out to twice its width, a ball or an angular map lights from wrong directions.
+  if (options.layout == ProbeLayout::latlong && image.width == image.height && !picture.envmap && picture.probe_layout.empty())
+    throw Error(path + ": " + size_text(image) +
+                " are square, as \"angular\", \"angular-inside\" and \"mirror-ball\" are, and a " +
+                "latlong is twice as wide as high; " + name_it() + ", or scale the picture to 2:1");
   if (options.layout) return *options.layout;
+  if (const auto layout = value_named<ProbeLayout>(picture.probe_layout)) return *layout;
   if (picture.envmap) return *picture.envmap == ExrEnvmap::cube ? ProbeLayout::cube : ProbeLayout::latlong;
-  return layout_by_shape(path, picture.image);
+  return layout_by_shape(path, image);
 }
 
 // Radiance cannot be negative, infinite or undefined. Outside the layout's area anything may stand: it holds no light.
@@ -98,6 +143,8 @@ Image rgb_of(Image image) {
 Probe load_probe(const std::string& path, const ProbeLoadOptions& options, const WarningHandler& warn) {
   ExrPicture picture = read_picture(path);
   const ProbeLayout layout = layout_of(path, picture, options);
+  if (layout == ProbeLayout::cube_cross && (is_lying_cross(picture.image) || is_row_of_faces(picture.image)))
+    picture.image = standing_cross(picture.image);
   check_probe_shape(layout, picture.image.width, picture.image.height, path);
   Probe probe{rgb_of(std::move(picture.image)), layout};
   clean_texels(path, probe, options.strict, warn);
@@ -108,14 +155,15 @@ Probe load_probe(const std::string& path, const ProbeLoadOptions& options, const
 void save_probe(const std::string& path, const Probe& probe, ExrPrecision precision) {
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
-  if (extension == ".hdr" || extension == ".pic") return write_hdr(path, probe.image);
+  if (extension == ".hdr" || extension == ".pic") return write_hdr(path, probe.image, name_of(probe.layout));
   if (extension != ".exr") throw UsageError(path + ": expected a name that ends in .exr or .hdr");
   std::optional<ExrEnvmap> envmap;
   if (probe.layout == ProbeLayout::latlong) envmap = ExrEnvmap::latlong;
   if (probe.layout == ProbeLayout::cube) envmap = ExrEnvmap::cube;
   // Half holds at most 65504: a sun beyond it keeps its power in float.
   const bool beyond_half = std::any_of(probe.image.data.begin(), probe.image.data.end(), [](float v) { return v > 65504.0f; });
-  write_exr(path, {{"", &probe.image, {"R", "G", "B"}, precision == ExrPrecision::full || beyond_half}}, envmap);
+  write_exr(path, {{"", &probe.image, {"R", "G", "B"}, precision == ExrPrecision::full || beyond_half}}, envmap,
+            {.probe_layout = envmap ? "" : name_of(probe.layout)});
 }
 
 }  // namespace catchlight::render

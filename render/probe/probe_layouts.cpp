@@ -48,9 +48,14 @@ glm::dvec3 latlong_direction(int width, int height, double x, double y) {
   return {std::sin(longitude) * std::cos(latitude), std::sin(latitude), std::cos(longitude) * std::cos(latitude)};
 }
 
+/// The z of the direction in the disc's middle.
+double middle_z(ProbeLayout disc) {
+  return disc == ProbeLayout::angular_inside ? -1 : 1;
+}
+
 glm::dvec2 disc_texel(ProbeLayout layout, int width, int height, const glm::dvec3& direction) {
-  const double across = std::hypot(direction.x, direction.y), angle = std::atan2(across, direction.z);
-  const double radius = layout == ProbeLayout::angular ? angle / kPi : std::sin(angle / 2);
+  const double across = std::hypot(direction.x, direction.y), angle = std::atan2(across, middle_z(layout) * direction.z);
+  const double radius = layout == ProbeLayout::mirror_ball ? std::sin(angle / 2) : angle / kPi;
   // Straight ahead is the middle; straight back is the whole rim, of which the rightmost point stands for all.
   const glm::dvec2 outward = across > 0 ? glm::dvec2(direction.x, direction.y) / across : glm::dvec2(1, 0);
   return {(radius * outward.x + 1) / 2 * width - 0.5, (1 - radius * outward.y) / 2 * height - 0.5};
@@ -59,9 +64,9 @@ glm::dvec2 disc_texel(ProbeLayout layout, int width, int height, const glm::dvec
 std::optional<glm::dvec3> disc_direction(ProbeLayout layout, int width, int height, double x, double y) {
   const double u = (2 * x + 1) / width - 1, v = 1 - (2 * y + 1) / height, radius = std::hypot(u, v);
   if (radius > 1) return std::nullopt;
-  const double angle = layout == ProbeLayout::angular ? kPi * radius : 2 * std::asin(radius);
+  const double angle = layout == ProbeLayout::mirror_ball ? 2 * std::asin(radius) : kPi * radius;
   const double scale = radius > 0 ? std::sin(angle) / radius : 0.0;
-  return glm::dvec3(u * scale, v * scale, std::cos(angle));
+  return glm::dvec3(u * scale, v * scale, middle_z(layout) * std::cos(angle));
 }
 
 std::optional<glm::dvec3> cube_direction(ProbeLayout layout, int width, double x, double y) {
@@ -122,6 +127,7 @@ void check_probe_shape(ProbeLayout layout, int width, int height, const std::str
     case ProbeLayout::latlong:
       return expect(width >= 4 && height >= 3, "at least 4 x 3");
     case ProbeLayout::angular:
+    case ProbeLayout::angular_inside:
     case ProbeLayout::mirror_ball:
       return expect(width >= 4 && width == height, "a square of at least 4 x 4");
     case ProbeLayout::cube_cross:

@@ -17,14 +17,15 @@ namespace catchlight::render {
 /// OpenEXR's layouts have their outermost texel centres on +-180 degrees, the poles and the cube's edges; the others have texel
 /// borders there.
 enum class ProbeLayout {
-  latlong,      ///< ImfEnvmap.h, as above
-  angular,      ///< Debevec's light probe: u = Dx r, v = Dy r, r = acos(Dz) / (pi sqrt(Dx^2 + Dy^2)); +z in the middle, +y up
-  mirror_ball,  ///< orthographic photograph of a mirror sphere, the camera at +z: the middle reflects +z
-  cube_cross,   ///< HDRShop's and cmft's 3 x 4 faces, OpenGL's orientation: +y; -x +z +x; -y; -z turned by half a turn
-  cube,         ///< ImfEnvmap.h: faces stacked +x -x +y -y +z -z
+  latlong,         ///< ImfEnvmap.h, as above
+  angular,         ///< Debevec's light probe: u = Dx r, v = Dy r, r = acos(Dz) / (pi sqrt(Dx^2 + Dy^2)); +z in the middle, +y up
+  mirror_ball,     ///< orthographic photograph of a mirror sphere, the camera at +z: the middle reflects +z
+  cube_cross,      ///< HDRShop's and cmft's 3 x 4 faces, OpenGL's orientation: +y; -x +z +x; -y; -z turned by half a turn
+  cube,            ///< ImfEnvmap.h: faces stacked +x -x +y -y +z -z
+  angular_inside,  ///< as a camera inside sees it that looks along -z: angular with -Dz for Dz; -z in the middle, +x right of it
 };
 constexpr auto names_of(ProbeLayout) {
-  return std::array{"latlong", "angular", "mirror-ball", "cube-cross", "cube"};
+  return std::array{"latlong", "angular", "mirror-ball", "cube-cross", "cube", "angular-inside"};
 }
 
 /// Throws Error naming the layouts there are for anything else.
@@ -57,7 +58,7 @@ const CubeFaces& gl_cube_faces();
 /// The faces of ProbeLayout::cube or cube_cross.
 const CubeFaces& faces_of(ProbeLayout layout);
 inline bool is_disc(ProbeLayout layout) {
-  return layout == ProbeLayout::angular || layout == ProbeLayout::mirror_ball;
+  return layout == ProbeLayout::angular || layout == ProbeLayout::mirror_ball || layout == ProbeLayout::angular_inside;
 }
 
 /// Side of a face in texels.

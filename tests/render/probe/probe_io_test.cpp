@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -58,6 +59,79 @@ TEST_F(ProbeFile, SquareImagesMustBeNamed) {
   EXPECT_NE(load_error("square.exr").find("mirror-ball"), std::string::npos);
   EXPECT_EQ(load("square.exr", {ProbeLayout::angular}).layout, ProbeLayout::angular);
   EXPECT_EQ(load("square.exr", {ProbeLayout::mirror_ball}).layout, ProbeLayout::mirror_ball);
+}
+
+/// Drawn out to twice its width, a ball would light from wrong directions.
+TEST_F(ProbeFile, SquareImagesAreNoLatlong) {
+  write_floats(folder_ / "square.exr", Image(16, 16));
+  const std::string error = load_error("square.exr", {ProbeLayout::latlong});
+  for (const char* part : {"16 x 16 texels are square", "\"mirror-ball\"", "probe.layout", "--layout-in"})
+    EXPECT_NE(error.find(part), std::string::npos) << error;
+}
+
+TEST_F(ProbeFile, WhatWasSavedKnowsItsLayout) {
+  for (const std::string& name : name_list<ProbeLayout>()) {
+    const ProbeLayout layout = probe_layout_from_name(name);
+    const Probe probe = convert(even_probe(ProbeLayout::latlong, 32, 16, 1), layout, 12);
+    for (const char* extension : {".exr", ".hdr"}) {
+      save_probe(folder_ / (name + extension), probe);
+      EXPECT_EQ(load(name + extension).layout, layout) << name << extension;
+    }
+  }
+  save_probe(folder_ / "ball.exr", even_probe(ProbeLayout::mirror_ball, 16, 16, 1));
+  EXPECT_EQ(load("ball.exr", {ProbeLayout::angular}).layout, ProbeLayout::angular) << "what is asked for goes first";
+}
+
+/// Red, green and blue are x, y and z of the direction, so that each texel says where it belongs.
+Image faces_with_their_directions(int columns, int rows, const std::array<glm::ivec2, 6>& places) {
+  constexpr int kSize = 4;
+  Image image(columns * kSize, rows * kSize);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const CubeFace& face = gl_cube_faces()[i];
+    for (int y = 0; y < kSize; ++y)
+      for (int x = 0; x < kSize; ++x) {
+        const double s = (2 * x + 1.0) / kSize - 1, t = (2 * y + 1.0) / kSize - 1;
+        const glm::dvec3 direction = glm::normalize(face.centre + s * face.right + t * face.down);
+        for (int c = 0; c < 3; ++c)
+          image.pixel(places[i].x * kSize + x, places[i].y * kSize + y)[c] = static_cast<float>(direction[c] + 2);
+      }
+  }
+  return image;
+}
+
+TEST_F(ProbeFile, LyingCrossesAndRowsOfFacesAreRead) {
+  write_floats(folder_ / "lying.exr", faces_with_their_directions(4, 3, {{{2, 1}, {0, 1}, {1, 0}, {1, 2}, {1, 1}, {3, 1}}}));
+  write_floats(folder_ / "row.exr", faces_with_their_directions(6, 1, {{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {5, 0}}}));
+  for (const char* name : {"lying.exr", "row.exr"}) {
+    const Probe probe = load(name);
+    EXPECT_EQ(probe.layout, ProbeLayout::cube_cross);
+    int lit = 0;
+    for (int y = 0; y < probe.image.height; ++y)
+      for (int x = 0; x < probe.image.width; ++x)
+        if (const auto direction = direction_from_texel(probe.layout, probe.image.width, probe.image.height, x, y)) {
+          ++lit;
+          for (int c = 0; c < 3; ++c) EXPECT_NEAR(probe.image.pixel(x, y)[c], (*direction)[c] + 2, 1e-6) << name;
+        }
+    EXPECT_EQ(lit, 6 * 4 * 4);
+  }
+}
+
+TEST(MirroredProbe, HasTheLightOfMinusXAtX) {
+  for (const std::string& name : name_list<ProbeLayout>()) {
+    Probe probe = convert(even_probe(ProbeLayout::latlong, 32, 16, 1), probe_layout_from_name(name), 12);
+    for (int y = 0; y < probe.image.height; ++y)
+      for (int x = 0; x < probe.image.width; ++x) {
+        const auto direction = direction_from_texel(probe.layout, probe.image.width, probe.image.height, x, y);
+        for (int c = 0; direction && c < 3; ++c) probe.image.pixel(x, y)[c] = static_cast<float>((*direction)[c] + 2);
+      }
+    const Probe other = mirrored(probe);
+    for (const glm::dvec3& towards : {glm::dvec3(1, 0.3, 0.2), glm::dvec3(-0.3, 1, 0.1), glm::dvec3(-0.4, -0.2, -1)}) {
+      const glm::vec3 seen = sample(probe, glm::normalize(towards)),
+                      there = sample(other, glm::normalize(towards * glm::dvec3(-1, 1, 1)));
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], there[c], 1e-5) << name;
+    }
+    EXPECT_EQ(mirrored(other).image.data, probe.image.data) << name;
+  }
 }
 
 TEST_F(ProbeFile, LayoutThatDoesNotFitIsRefused) {
@@ -176,16 +250,19 @@ TEST(RealProbes, BlendersStudioLightsLoadAndLight) {
 }
 
 TEST(RealProbes, AngularMapAndMirrorBallOfOnePlaceAgree) {
-  // Made from the same latlong probe; the angular maps look along -z, so their +z is the ball's -z.
+  // Made from the same latlong probe; the angular maps look along -z: what angular-inside says, and read as angular, their +z is
+  // the ball's -z.
   const std::filesystem::path folder = footage_folder() / "probes" / "derived";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no footage: set CATCHLIGHT_FOOTAGE";
   for (const std::string name : {"city", "interior", "studio"}) {
     const Probe angular = load_probe(folder / (name + "_angular.hdr"), {ProbeLayout::angular}, {});
     const Probe ball = load_probe(folder / (name + "_mirrorball.hdr"), {ProbeLayout::mirror_ball}, {});
+    const Probe inside = load_probe(folder / (name + "_angular.hdr"), {ProbeLayout::angular_inside}, {});
     for (const glm::dvec3& normal :
          {glm::dvec3(1, 0, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, -1, 0), glm::dvec3(0, 0, 1)}) {
       const glm::dvec3 of_angular = irradiance(angular, {normal.x, normal.y, -normal.z}), of_ball = irradiance(ball, normal);
       for (int c = 0; c < 3; ++c) EXPECT_NEAR(of_angular[c] / of_ball[c], 1, 0.05) << name;
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(irradiance(inside, normal)[c] / of_ball[c], 1, 0.05) << name;
     }
   }
 }

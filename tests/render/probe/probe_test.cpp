@@ -25,10 +25,11 @@ std::ostream& operator<<(std::ostream& out, const Shape& shape) {
 }
 
 const Shape kShapes[] = {
-    {ProbeLayout::latlong, 64, 32},     {ProbeLayout::latlong, 5, 3},     {ProbeLayout::latlong, 127, 50},
-    {ProbeLayout::angular, 64, 64},     {ProbeLayout::angular, 33, 33},   {ProbeLayout::angular, 4, 4},
-    {ProbeLayout::mirror_ball, 64, 64}, {ProbeLayout::mirror_ball, 5, 5}, {ProbeLayout::cube_cross, 48, 64},
-    {ProbeLayout::cube_cross, 6, 8},    {ProbeLayout::cube, 16, 96},      {ProbeLayout::cube, 2, 12},
+    {ProbeLayout::latlong, 64, 32},        {ProbeLayout::latlong, 5, 3},     {ProbeLayout::latlong, 127, 50},
+    {ProbeLayout::angular, 64, 64},        {ProbeLayout::angular, 33, 33},   {ProbeLayout::angular, 4, 4},
+    {ProbeLayout::mirror_ball, 64, 64},    {ProbeLayout::mirror_ball, 5, 5}, {ProbeLayout::cube_cross, 48, 64},
+    {ProbeLayout::cube_cross, 6, 8},       {ProbeLayout::cube, 16, 96},      {ProbeLayout::cube, 2, 12},
+    {ProbeLayout::angular_inside, 33, 33},
 };
 
 const glm::dvec3 kAxes[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
@@ -256,7 +257,7 @@ TEST(CubeCrossLayout, FoldsAlongItsMiddleColumnAndRow) {
 class BrightSpot : public testing::TestWithParam<ProbeLayout> {};
 INSTANTIATE_TEST_SUITE_P(Layouts, BrightSpot,
                          testing::Values(ProbeLayout::latlong, ProbeLayout::angular, ProbeLayout::mirror_ball,
-                                         ProbeLayout::cube_cross, ProbeLayout::cube),
+                                         ProbeLayout::cube_cross, ProbeLayout::cube, ProbeLayout::angular_inside),
                          [](const auto& tested) {
                            std::string name = name_of(tested.param);
                            std::erase(name, '-');
