@@ -30,13 +30,24 @@ namespace {
 constexpr float kHalfMax = 65504.0f;
 constexpr std::int64_t kMaxTexels = std::int64_t{1} << 29;
 
+/// The colour of these chromaticities with X + Y + Z = 1; y may be 0, as it is for the primaries of XYZ itself.
 glm::dvec3 xyz_from_xy(const Imath::V2f& xy) {
-  return {xy.x / xy.y, 1.0, (1.0 - xy.x - xy.y) / xy.y};
+  return {xy.x, xy.y, 1.0 - xy.x - xy.y};
+}
+
+glm::dvec3 white_xyz(const Imf::Chromaticities& primaries) {
+  return xyz_from_xy(primaries.white) / static_cast<double>(primaries.white.y);
+}
+
+/// Not where all primaries lie on a line, or white is none.
+bool are_usable(const Imf::Chromaticities& primaries) {
+  const glm::dmat3 columns(xyz_from_xy(primaries.red), xyz_from_xy(primaries.green), xyz_from_xy(primaries.blue));
+  return std::abs(glm::determinant(columns)) > 1e-6 && primaries.white.y > 1e-6f;
 }
 
 glm::dmat3 xyz_from_rgb(const Imf::Chromaticities& primaries) {
   const glm::dmat3 columns(xyz_from_xy(primaries.red), xyz_from_xy(primaries.green), xyz_from_xy(primaries.blue));
-  const glm::dvec3 scale = glm::inverse(columns) * xyz_from_xy(primaries.white);
+  const glm::dvec3 scale = glm::inverse(columns) * white_xyz(primaries);
   return {columns[0] * scale.x, columns[1] * scale.y, columns[2] * scale.z};
 }
 
@@ -48,19 +59,21 @@ glm::dmat3 adapted_white(const glm::dvec3& to_xyz, const glm::dvec3& from_xyz) {
   return glm::inverse(cone) * diagonal * cone;
 }
 
-void convert_to_rec709(Image& image, const Imf::Chromaticities& from) {
+/// Whether there was anything to convert.
+bool convert_to_rec709(Image& image, const Imf::Chromaticities& from) {
   const Imf::Chromaticities rec709;  // the library's default
   const auto same = [](const Imath::V2f& a, const Imath::V2f& b) { return (a - b).length() < 1e-4f; };
   if (same(from.red, rec709.red) && same(from.green, rec709.green) && same(from.blue, rec709.blue) &&
       same(from.white, rec709.white)) {
-    return;
+    return false;
   }
   const glm::dmat3 matrix =
-      glm::inverse(xyz_from_rgb(rec709)) * adapted_white(xyz_from_xy(rec709.white), xyz_from_xy(from.white)) * xyz_from_rgb(from);
+      glm::inverse(xyz_from_rgb(rec709)) * adapted_white(white_xyz(rec709), white_xyz(from)) * xyz_from_rgb(from);
   for (std::size_t i = 0; i < image.data.size(); i += image.channels) {
     const glm::dvec3 rgb = matrix * glm::dvec3(image.data[i], image.data[i + 1], image.data[i + 2]);
     for (int c = 0; c < 3; ++c) image.data[i + c] = static_cast<float>(rgb[c]);
   }
+  return true;
 }
 
 /// Inflating a large picture takes most of the time of reading it; for a small one, starting threads would.
@@ -91,19 +104,28 @@ std::vector<std::string> channels_to_read(const std::string& path, const Imf::Ch
   return names;
 }
 
+struct Size {
+  int width, height;
+};
+
+Size size_of(const std::string& path, const Imath::Box2i& window) {
+  const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1,
+                     height = std::int64_t{window.max.y} - window.min.y + 1;
+  if (width < 1 || height < 1 || width > kMaxTexels || height > kMaxTexels / width)
+    throw Error(path + ": " + std::to_string(width) + " x " + std::to_string(height) + " pixels are out of range");
+  return {static_cast<int>(width), static_cast<int>(height)};
+}
+
 ExrPicture read(const std::string& path) {
   use_all_cores_for_large(path);
   Imf::InputFile file(path.c_str());
   const Imf::Header& header = file.header();
   const Imath::Box2i window = header.dataWindow();
-  const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1,
-                     height = std::int64_t{window.max.y} - window.min.y + 1;
-  if (width < 1 || height < 1 || width > kMaxTexels || height > kMaxTexels / width) {
-    throw Error(path + ": " + std::to_string(width) + " x " + std::to_string(height) + " pixels are out of range");
-  }
+  const auto [width, height] = size_of(path, window);
   const std::vector<std::string> names = channels_to_read(path, header.channels());
   const int channels = std::max<int>(3, static_cast<int>(names.size()));
-  ExrPicture picture{Image(static_cast<int>(width), static_cast<int>(height), channels), {}, {}};
+  ExrPicture picture;
+  picture.image = Image(width, height, channels);
   const std::size_t pixel_bytes = sizeof(float) * channels, row_bytes = pixel_bytes * width;
   Imf::FrameBuffer frame;
   for (std::size_t c = 0; c < names.size(); ++c) {
@@ -116,8 +138,13 @@ ExrPicture read(const std::string& path) {
     for (std::size_t i = 0; i < picture.image.data.size(); i += 3)
       picture.image.data[i + 1] = picture.image.data[i + 2] = picture.image.data[i];
   } else if (Imf::hasChromaticities(header)) {
-    convert_to_rec709(picture.image, Imf::chromaticities(header));
+    const Imf::Chromaticities& primaries = Imf::chromaticities(header);
+    picture.has_unusable_primaries = !are_usable(primaries);
+    picture.has_other_primaries = !picture.has_unusable_primaries && convert_to_rec709(picture.image, primaries);
   }
+  const Imath::Box2i display = header.displayWindow();
+  const Size whole = size_of(path, display);
+  picture.display = {display.min.x - window.min.x, display.min.y - window.min.y, whole.width, whole.height};
   if (Imf::hasEnvmap(header)) picture.envmap = Imf::envmap(header) == Imf::ENVMAP_CUBE ? ExrEnvmap::cube : ExrEnvmap::latlong;
   if (const auto* layout = header.findTypedAttribute<Imf::StringAttribute>(kProbeLayout)) picture.probe_layout = layout->value();
   return picture;

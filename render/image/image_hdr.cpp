@@ -161,7 +161,11 @@ ExrPicture read_hdr_picture(const std::string& path) {
       for (int c = 0; c < 3; ++c) pixel[c] = static_cast<float>(line[k][c] * scale);
     }
   }
-  return {std::move(image), {}, header.probe_layout};
+  ExrPicture picture;
+  picture.display = {0, 0, image.width, image.height};
+  picture.image = std::move(image);
+  picture.probe_layout = header.probe_layout;
+  return picture;
 }
 
 Image read_hdr(const std::string& path) {

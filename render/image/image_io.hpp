@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "catchlight/image.hpp"
+#include "catchlight/pixel_rect.hpp"
 
 namespace catchlight::render {
 
@@ -15,7 +16,11 @@ enum class ExrEnvmap { latlong, cube };  ///< OpenEXR's standard attribute "envm
 struct ExrPicture {
   Image image;  ///< 3 channels (R G B, or Y three times), 4 where the file has A
   std::optional<ExrEnvmap> envmap;
-  std::string probe_layout;  ///< as write_exr or write_hdr wrote it; empty where the file does not say
+  PixelRect display =
+      {};  ///< the picture as a whole, in pixels of `image`: more than that where the file is a crop, less for overscan
+  bool has_other_primaries = false;     ///< than Rec. 709, to which it was converted: colours beyond those are negative
+  bool has_unusable_primaries = false;  ///< chromaticities that span no colours: the values are taken as Rec. 709
+  std::string probe_layout;             ///< as write_exr or write_hdr wrote it; empty where the file does not say
 };
 
 /// Reads the data window of the first part, colours converted to Rec. 709 where the file names other primaries (white point

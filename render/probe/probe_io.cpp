@@ -84,6 +84,28 @@ Image standing_cross(const Image& faces) {
   return cross;
 }
 
+/// The picture as its file says that it is seen: a crop is filled up with black, overscan cut off. With an envmap attribute the
+/// file's own pixels are the panorama (ImfEnvmap.h).
+Image displayed(const std::string& path, ExrPicture&& picture, const WarningHandler& warn) {
+  Image& image = picture.image;
+  const PixelRect& display = picture.display;
+  if (picture.envmap || (display.x == 0 && display.y == 0 && display.width == image.width && display.height == image.height))
+    return std::move(image);
+  Image whole(display.width, display.height, image.channels);
+  int held = 0;
+  for (int y = 0; y < display.height; ++y)
+    for (int x = 0; x < display.width; ++x) {
+      const int from_x = x + display.x, from_y = y + display.y;
+      if (from_x < 0 || from_y < 0 || from_x >= image.width || from_y >= image.height) continue;
+      std::copy_n(image.pixel(from_x, from_y), image.channels, whole.pixel(x, y));
+      ++held;
+    }
+  if (held < display.width * display.height && warn)
+    warn(path + ": holds " + size_text(image) + " of the panorama's " + std::to_string(display.width) + " x " +
+         std::to_string(display.height) + "; the rest is black");
+  return whole;
+}
+
 ProbeLayout layout_by_shape(const std::string& path, const Image& image) {
   if (image.width == 2 * image.height) return ProbeLayout::latlong;
   if (image.width % 3 == 0 && image.width / 3 * 4 == image.height) return ProbeLayout::cube_cross;
@@ -95,7 +117,8 @@ ProbeLayout layout_by_shape(const std::string& path, const Image& image) {
 ProbeLayout layout_of(const std::string& path, const ExrPicture& picture, const ProbeLoadOptions& options) {
   const Image& image = picture.image;
   // What is square is hardly a panorama: drawn out to twice its width, a ball or an angular map lights from wrong directions.
-  if (options.layout == ProbeLayout::latlong && image.width == image.height && !picture.envmap && picture.probe_layout.empty())
+  if (options.layout == ProbeLayout::latlong && image.width == image.height && !picture.envmap &&
+      value_named<ProbeLayout>(picture.probe_layout) != ProbeLayout::latlong)
     throw Error(path + ": " + size_text(image) +
                 " are square, as \"angular\", \"angular-inside\" and \"mirror-ball\" are, and a " +
                 "latlong is twice as wide as high; " + name_it() + ", or scale the picture to 2:1");
@@ -142,6 +165,12 @@ Image rgb_of(Image image) {
 
 Probe load_probe(const std::string& path, const ProbeLoadOptions& options, const WarningHandler& warn) {
   ExrPicture picture = read_picture(path);
+  if (picture.has_unusable_primaries && warn)
+    warn(path + ": its chromaticities span no colours; the values are taken as Rec. 709");
+  // A colour beyond Rec. 709 is no damage: it becomes the nearest that there is.
+  for (float& value : picture.image.data)
+    if (picture.has_other_primaries && std::isfinite(value)) value = std::max(value, 0.0f);
+  picture.image = displayed(path, std::move(picture), warn);
   const ProbeLayout layout = layout_of(path, picture, options);
   if (layout == ProbeLayout::cube_cross && (is_lying_cross(picture.image) || is_row_of_faces(picture.image)))
     picture.image = standing_cross(picture.image);
