@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 
 #include "catchlight/rigid_transform.hpp"
 
@@ -13,6 +14,10 @@ namespace catchlight {
 struct Covariance2 {
   double xx = 0, xy = 0, yy = 0;
 };
+
+/// Covariance of a pose, row-major 6x6: a small rotation (rad) about the camera's x, y, z axes through the tag's origin, then a
+/// translation (m) in the camera frame.
+using PoseCovariance = std::array<double, 36>;
 
 enum class TrackState {
   tracking,  ///< seen in this frame
@@ -51,6 +56,7 @@ struct TrackRow {
   double time_s = 0;
   bool found = false;
   RigidTransform camera_from_tag;
+  std::optional<PoseCovariance> pose_covariance;  ///< how uncertain it is; empty: not known
   TrackState state = TrackState::lost;
   bool has_exposure = false;  ///< false: a bare pose, as poses.csv has them
   glm::dvec3 exposure{1.0};   ///< exposed linear value of white paper on the tag, per unit of albedo (docs/conventions.md)

@@ -11,10 +11,6 @@
 
 namespace catchlight::tracking {
 
-/// Covariance of a pose, row-major 6x6: a small rotation (rad) about the camera's x, y, z axes through the tag's origin, then a
-/// translation (m) in the camera frame.
-using PoseCovariance = std::array<double, 36>;
-
 /// A pose that one frame allows.
 struct PoseCandidate {
   RigidTransform camera_from_tag;

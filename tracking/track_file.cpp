@@ -1,10 +1,13 @@
 #include "tracking/track_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <optional>
+#include <string_view>
 
 #include "catchlight/error.hpp"
 #include "catchlight/rigid_transform.hpp"
@@ -17,6 +20,18 @@ namespace {
 constexpr std::array<const char*, 12> kPoseColumns{"r00", "r01", "r02", "r10", "r11", "r12",
                                                    "r20", "r21", "r22", "tx",  "ty",  "tz"};
 constexpr double kRotationTolerance = 1e-3;
+
+/// What the covariance's rows and columns are of.
+constexpr std::array<const char*, 6> kPoseFreedoms{"rx", "ry", "rz", "tx", "ty", "tz"};
+constexpr const char* kSubjectColumns = ",width_px,height_px,fx_px,fy_px,cx_px,cy_px,distortion,tag_family,tag_id,tag_size_m";
+
+/// Calls with each column of the covariance's upper triangle, which is all of it, and its row and column.
+template <class Each>
+void for_each_covariance_column(Each&& each) {
+  for (std::size_t row = 0; row < kPoseFreedoms.size(); ++row)
+    for (std::size_t column = row; column < kPoseFreedoms.size(); ++column)
+      each(std::string("cov_") + kPoseFreedoms[row] + '_' + kPoseFreedoms[column], row, column);
+}
 
 /// The pose in the order of kPoseColumns; glm keeps columns.
 std::array<double, 12> pose_cells(const RigidTransform& pose) {
@@ -53,8 +68,9 @@ class Reader {
     read_header();
   }
 
-  std::vector<TrackRow> read() {
-    std::vector<TrackRow> rows;
+  TrackFile read() {
+    TrackFile file;
+    std::vector<TrackRow>& rows = file.rows;
     while (next_line()) {
       if (cells_.size() == 1 && cells_[0].empty()) continue;
       if (cells_.size() != column_count_)
@@ -63,9 +79,11 @@ class Reader {
       if (!rows.empty() && row.frame <= rows.back().frame)
         fail("frame " + std::to_string(row.frame) + " after frame " + std::to_string(rows.back().frame) +
              "; expected rising order");
+      if (rows.empty() && cell("fx_px") && !cell("fx_px")->empty()) file.subject = subject();
+      file.has_times |= row.time_s != 0;
       rows.push_back(row);
     }
-    return rows;
+    return file;
   }
 
  private:
@@ -76,7 +94,9 @@ class Reader {
     if (!std::getline(file_, text)) return false;
     ++line_;
     if (text.ends_with('\r')) text.pop_back();
-    cells_ = split(text, ',');
+    cells_ = split(text, separator_);
+    if (separator_ == ';')  // where it is one, numbers may have decimal commas
+      for (std::string& cell : cells_) std::replace(cell.begin(), cell.end(), ',', '.');
     return true;
   }
 
@@ -85,7 +105,10 @@ class Reader {
     std::string text;
     std::getline(file_, text);
     if (text.ends_with('\r')) text.pop_back();
-    const std::vector<std::string> names = split(text, ',');
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
+    if (text.find(',') == std::string::npos && text.find(';') != std::string::npos) separator_ = ';';
+    const std::vector<std::string> names = split(text, separator_);
     column_count_ = names.size();
     for (std::size_t i = 0; i < names.size(); ++i)
       if (!columns_.emplace(names[i], i).second) fail("column '" + names[i] + "' is named twice");
@@ -144,6 +167,45 @@ class Reader {
     return pose;
   }
 
+  std::optional<PoseCovariance> covariance() const {
+    if (!cell("cov_rx_rx") || cell("cov_rx_rx")->empty()) return std::nullopt;
+    PoseCovariance covariance{};
+    for_each_covariance_column([&](const std::string& name, std::size_t row, std::size_t column) {
+      covariance[6 * row + column] = covariance[6 * column + row] = finite_number(name);
+    });
+    return covariance;
+  }
+
+  std::string text(const std::string& column) const {
+    if (!cell(column)) fail("no column '" + column + "', which one with 'fx_px' needs");
+    return *cell(column);
+  }
+
+  int whole_number(const std::string& column) const {
+    const std::optional<std::int64_t> number = integer_from_text(text(column));
+    if (!number || *number < 0 || *number > std::numeric_limits<int>::max())
+      fail("column '" + column + "' is \"" + text(column) + "\"; expected a whole number from 0");
+    return static_cast<int>(*number);
+  }
+
+  TrackSubject subject() const {
+    TrackSubject subject;
+    CameraModel& camera = subject.camera;
+    camera.width_px = whole_number("width_px");
+    camera.height_px = whole_number("height_px");
+    camera.fx_px = finite_number("fx_px"), camera.fy_px = finite_number("fy_px");
+    camera.cx_px = finite_number("cx_px"), camera.cy_px = finite_number("cy_px");
+    const std::vector<std::string> coefficients = split(text("distortion"), ' ');
+    for (std::size_t i = 0; i < std::min(coefficients.size(), camera.distortion.size()); ++i) {
+      const std::optional<double> number = real_from_text(coefficients[i]);
+      if (!number || !std::isfinite(*number))
+        fail("column 'distortion' is \"" + text("distortion") + "\"; expected eight numbers");
+      camera.distortion[i] = *number;
+    }
+    subject.tag = {text("tag_family"), whole_number("tag_id"), finite_number("tag_size_m")};
+    return subject;
+  }
+
   TrackRow parse_row() const {
     TrackRow row;
     row.frame = frame();
@@ -151,6 +213,7 @@ class Reader {
     row.found = found();
     row.state = state(row.found);
     if (row.found) row.camera_from_tag = pose();
+    if (row.found) row.pose_covariance = covariance();
     row.has_exposure = cell("exposure_r") != nullptr;
     row.exposure = rgb_or("exposure", row.exposure);
     row.black = rgb_or("black", row.black);
@@ -172,18 +235,38 @@ class Reader {
   std::string path_;
   std::ifstream file_;
   std::size_t line_ = 0, column_count_ = 0;
+  char separator_ = ',';
   std::map<std::string, std::size_t> columns_;
   std::vector<std::string> cells_;
 };
 
-std::string header_text() {
+std::string header_text(bool has_subject) {
   std::string text = "frame,time_s,found";
   for (const char* column : kPoseColumns) text += std::string(",") + column;
-  return text +
-         ",state,exposure_r,exposure_g,exposure_b,black_r,black_g,black_b,corner_sigma_px,ambiguity,"
-         "blur_xx_px2,blur_xy_px2,blur_yy_px2,noise_codes,noise_slope_r,noise_slope_g,noise_slope_b,noise_floor_r,noise_floor_g,"
-         "noise_floor_b,noise_correlation_rg,noise_correlation_rb,noise_correlation_gb,"
-         "turn_x,turn_y,turn_z,shift_x,shift_y,shift_z,shutter,focus_px2\n";
+  text +=
+      ",state,exposure_r,exposure_g,exposure_b,black_r,black_g,black_b,corner_sigma_px,ambiguity,"
+      "blur_xx_px2,blur_xy_px2,blur_yy_px2,noise_codes,noise_slope_r,noise_slope_g,noise_slope_b,noise_floor_r,noise_floor_g,"
+      "noise_floor_b,noise_correlation_rg,noise_correlation_rb,noise_correlation_gb,"
+      "turn_x,turn_y,turn_z,shift_x,shift_y,shift_z,shutter,focus_px2";
+  for_each_covariance_column([&](const std::string& name, std::size_t, std::size_t) { text += ',' + name; });
+  return text + (has_subject ? kSubjectColumns : "") + '\n';
+}
+
+std::string covariance_text(const TrackRow& row) {
+  std::string text;
+  for_each_covariance_column([&](const std::string&, std::size_t i, std::size_t j) {
+    text += ',' + (row.found && row.pose_covariance ? number_text((*row.pose_covariance)[6 * i + j]) : "");
+  });
+  return text;
+}
+
+/// The cells of kSubjectColumns.
+std::string subject_text(const TrackSubject& subject) {
+  const CameraModel& camera = subject.camera;
+  std::string text = ',' + std::to_string(camera.width_px) + ',' + std::to_string(camera.height_px);
+  for (const double number : {camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px}) text += ',' + number_text(number);
+  for (std::size_t i = 0; i < camera.distortion.size(); ++i) text += (i == 0 ? ',' : ' ') + number_text(camera.distortion[i]);
+  return text + ',' + subject.tag.family + ',' + std::to_string(subject.tag.id) + ',' + number_text(subject.tag.size_m);
 }
 
 std::string row_text(const TrackRow& row) {
@@ -199,18 +282,19 @@ std::string row_text(const TrackRow& row) {
   for (const glm::dvec3& three : {row.noise.slope, row.noise.floor, row.noise.correlation, motion.turn_rad, motion.shift_m})
     for (int i = 0; i < 3; ++i) text += ',' + number_text(three[i]);
   for (const double number : {row.blur.shutter, row.blur.focus_px2}) text += ',' + number_text(number);
-  return text + '\n';
+  return text + covariance_text(row);
 }
 
 }  // namespace
 
-std::vector<TrackRow> read_track_file(const std::string& path) {
+TrackFile read_track_file(const std::string& path) {
   return Reader(path).read();
 }
 
-std::string track_file_text(const std::vector<TrackRow>& rows) {
-  std::string text = header_text();
-  for (const TrackRow& row : rows) text += row_text(row);
+std::string track_file_text(const std::vector<TrackRow>& rows, const std::optional<TrackSubject>& subject) {
+  std::string text = header_text(subject.has_value());
+  const std::string constant = subject ? subject_text(*subject) : "";
+  for (const TrackRow& row : rows) text += row_text(row) + constant + '\n';
   return text;
 }
 

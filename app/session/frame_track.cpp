@@ -56,6 +56,7 @@ TrackRow row_of(const Frame& frame, const tracking::TagObservation& seen, const 
   row.frame = frame.number();
   row.time_s = frame.time_s();
   set_pose(row, seen.state, seen.camera_from_tag, camera, target);
+  if (row.found) row.pose_covariance = seen.covariance;
   row.corner_sigma_px = seen.corner_sigma_px;
   row.ambiguity = seen.ambiguity;
   set_appearance(row, seen.appearance);
@@ -194,6 +195,7 @@ std::vector<TrackRow> ShotTrack::solve() const {
   const NoiseModel noise = impl_->grain.model();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     set_pose(rows[i], poses[i].state, poses[i].camera_from_tag, impl_->camera, impl_->target);
+    rows[i].pose_covariance = rows[i].found ? std::optional(poses[i].covariance) : std::nullopt;
     rows[i].ambiguity = poses[i].ambiguity;
     rows[i].corner_sigma_px = rows[i].found ? tracking::corner_sigma_px(impl_->camera, poses[i].camera_from_tag,
                                                                         poses[i].covariance, impl_->target.size_m)

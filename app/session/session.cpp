@@ -134,6 +134,7 @@ void Session::track(FrameJob& job) {
   FrameTrack& track = opened_track();
   job.track = track.is_tracking() ? measure("track", [&] { return track.row(job.image); }) : track.row(job.image);
   if (job.is_before_range) return;
+  if (track_check_) track_check_->see(job.image.number(), job.image.time_s());
   pass_.report.count(job.track);
   if (options_.keeps_track) pass_.rows.push_back(job.track);
   pass_.typical_rows.add(job.track);
@@ -161,9 +162,10 @@ FrameTrack& Session::opened_track() {
 std::unique_ptr<FrameTrack> Session::open_track() {
   const SceneSettings& scene = recording_.scene;
   if (!options_.track_file.empty()) {
-    std::vector<TrackRow> rows = tracking::read_track_file(options_.track_file);
-    if (std::ranges::none_of(rows, &TrackRow::found)) note_never_found(options_.track_file + ": no frame of it has a pose");
-    return make_recorded_track(std::move(rows), camera_, scene);
+    tracking::TrackFile file = tracking::read_track_file(options_.track_file);
+    track_check_.emplace(options_.track_file, file, camera_, scene.tag.target(), footage_->info(), log_.warning_handler());
+    if (std::ranges::none_of(file.rows, &TrackRow::found)) note_never_found(options_.track_file + ": no frame of it has a pose");
+    return make_recorded_track(std::move(file.rows), camera_, scene);
   }
   if (!is_solved_whole()) return make_tag_track(camera_, scene);
   footage_->keep(frames_to_track(footage_->info(), options_.range));
@@ -246,7 +248,8 @@ void Session::warn_of_track() {
   if (never_found_) {
     if (options_.allows_lost) log_.warn(*never_found_ + "; all frames pass through untouched");
   } else if (report.lost_frames > 0) {
-    log_.warn("no tag in " + std::to_string(report.lost_frames) + of_frames + ", which pass through untouched");
+    log_.warn("no tag in " + std::to_string(report.lost_frames) + of_frames + ", which pass through untouched" +
+              (track_check_ ? track_check_->missing_rows() : ""));
   }
 }
 

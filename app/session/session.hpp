@@ -17,6 +17,7 @@
 #include "app/session/report.hpp"
 #include "app/session/shot_renderer.hpp"
 #include "app/session/solve_shot.hpp"
+#include "app/session/track_check.hpp"
 #include "app/support/log.hpp"
 #include "app/support/progress.hpp"
 #include "catchlight/camera.hpp"
@@ -146,6 +147,7 @@ class Session {
   CameraModel camera_;
   std::unique_ptr<FrameTrack> track_;  ///< null until it is first needed
   ShotRenderer renderer_;
+  std::optional<TrackCheck> track_check_;   ///< where there is a track file
   std::optional<std::string> never_found_;  ///< what to say where the tag is in no frame
   std::optional<Progress> progress_;
   std::atomic<double> delay_s_ = 0;  ///< from decoding the last frame that is finished to that

@@ -26,7 +26,8 @@ std::string gltf_text(const std::vector<TrackRow>& rows, const Shot& shot);
 /// The same in glTF's binary container.
 std::string glb_bytes(const std::vector<TrackRow>& rows, const Shot& shot);
 
-/// One JSON object a frame: frame, time_s, state, camera_from_tag (4 rows of 4; null where lost), exposure and black (null where
+/// One JSON object a frame: frame, time_s, state, camera_from_tag (4 rows of 4; null where lost),
+/// pose_covariance (6 rows of 6, see PoseCovariance; null where not known), exposure and black (null where
 /// not measured), corner_sigma_px, ambiguity.
 std::string json_lines_text(const std::vector<TrackRow>& rows);
 

@@ -19,6 +19,16 @@ Json rows_of(const RigidTransform& transform) {
   return matrix;
 }
 
+Json covariance_or_null(const TrackRow& row) {
+  if (!row.found || !row.pose_covariance) return nullptr;
+  Json matrix = Json::array();
+  for (std::size_t i = 0; i < 6; ++i) {
+    const double* line = row.pose_covariance->data() + 6 * i;
+    matrix.push_back(std::vector<double>(line, line + 6));
+  }
+  return matrix;
+}
+
 Json rgb_or_null(const TrackRow& row, const glm::dvec3& rgb) {
   return row.has_exposure ? Json{rgb.r, rgb.g, rgb.b} : Json(nullptr);
 }
@@ -32,6 +42,7 @@ std::string json_lines_text(const std::vector<TrackRow>& rows) {
                     {"time_s", row.time_s},
                     {"state", name_of(row.state)},
                     {"camera_from_tag", row.found ? rows_of(row.camera_from_tag) : Json(nullptr)},
+                    {"pose_covariance", covariance_or_null(row)},
                     {"exposure", rgb_or_null(row, row.exposure)},
                     {"black", rgb_or_null(row, row.black)},
                     {"corner_sigma_px", row.corner_sigma_px},

@@ -27,7 +27,11 @@ struct Format {
 
 const std::map<std::string, Format>& formats() {
   static const std::map<std::string, Format> table{
-      {".csv", {[](const Rows& rows, const Shot&) { return tracking::track_file_text(rows); }, true, false, true}},
+      {".csv",
+       {[](const Rows& rows, const Shot& shot) {
+          return tracking::track_file_text(rows, tracking::TrackSubject{shot.camera, shot.scene.tag.target()});
+        },
+        true, false, true}},
       {".jsonl", {[](const Rows& rows, const Shot&) { return json_lines_text(rows); }, true, false, true}},
       {".tum", {[](const Rows& rows, const Shot&) { return tum_text(rows); }, false, false, true}},
       {".txt", {[](const Rows& rows, const Shot&) { return tum_text(rows); }, false, false, true}},

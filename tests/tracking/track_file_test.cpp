@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <bit>
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
@@ -22,7 +23,7 @@ constexpr const char* kIdentity = ",1,0,0,0,1,0,0,0,1,0,0,1\n";
 
 std::vector<TrackRow> read(const std::string& text) {
   const TemporaryFolder folder;
-  return read_track_file(folder.write("track.csv", text));
+  return read_track_file(folder.write("track.csv", text)).rows;
 }
 
 /// What follows the file's name.
@@ -52,6 +53,9 @@ TrackRow random_row(std::mt19937_64& random, std::int64_t frame) {
   row.ambiguity = uniform(random);
   row.noise = {vector(), vector(), vector()};
   row.blur = {{vector(), vector()}, uniform(random), uniform(random)};
+  PoseCovariance& covariance = row.pose_covariance.emplace();
+  for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t j = i; j < 6; ++j) covariance[6 * i + j] = covariance[6 * j + i] = 1e-7 * uniform(random);
   return row;
 }
 
@@ -87,6 +91,7 @@ void expect_same(const TrackRow& a, const TrackRow& b) {
   EXPECT_TRUE(same_bits(a.blur.motion.shift_m, b.blur.motion.shift_m));
   EXPECT_TRUE(same_bits(a.blur.shutter, b.blur.shutter));
   EXPECT_TRUE(same_bits(a.blur.focus_px2, b.blur.focus_px2));
+  EXPECT_EQ(a.pose_covariance, b.pose_covariance);
 }
 
 /// The chunks of one recording are the same bytes as one run only if this holds.
@@ -95,7 +100,7 @@ TEST(TrackFile, EveryBitSurvives) {
   std::mt19937_64 random(3);
   std::vector<TrackRow> rows;
   for (int i = 0; i < 200; ++i) rows.push_back(random_row(random, 5 + 3 * i));
-  const std::vector<TrackRow> back = read_track_file(folder.write("track.csv", track_file_text(rows)));
+  const std::vector<TrackRow> back = read_track_file(folder.write("track.csv", track_file_text(rows))).rows;
   ASSERT_EQ(back.size(), rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) expect_same(back[i], rows[i]);
 }
@@ -110,9 +115,11 @@ TEST(TrackFile, LostFrameHasEmptyPoseCells) {
       "frame,time_s,found,r00,r01,r02,r10,r11,r12,r20,r21,r22,tx,ty,tz,state,exposure_r,exposure_g,exposure_b,black_r,black_g,"
       "black_b,corner_sigma_px,ambiguity,blur_xx_px2,blur_xy_px2,blur_yy_px2,noise_codes,"
       "noise_slope_r,noise_slope_g,noise_slope_b,noise_floor_r,noise_floor_g,noise_floor_b,noise_correlation_rg,"
-      "noise_correlation_rb,noise_correlation_gb,turn_x,turn_y,turn_z,shift_x,shift_y,shift_z,shutter,focus_px2\n"
-      "4,0.5,0,,,,,,,,,,,,,lost,1,1,1,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\n");
-  const std::vector<TrackRow> back = read_track_file(folder.write("track.csv", track_file_text({lost})));
+      "noise_correlation_rb,noise_correlation_gb,turn_x,turn_y,turn_z,shift_x,shift_y,shift_z,shutter,focus_px2,"
+      "cov_rx_rx,cov_rx_ry,cov_rx_rz,cov_rx_tx,cov_rx_ty,cov_rx_tz,cov_ry_ry,cov_ry_rz,cov_ry_tx,cov_ry_ty,cov_ry_tz,"
+      "cov_rz_rz,cov_rz_tx,cov_rz_ty,cov_rz_tz,cov_tx_tx,cov_tx_ty,cov_tx_tz,cov_ty_ty,cov_ty_tz,cov_tz_tz\n"
+      "4,0.5,0,,,,,,,,,,,,,lost,1,1,1,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,,,,,,,,,,,,,,,,,,,,,\n");
+  const std::vector<TrackRow> back = read_track_file(folder.write("track.csv", track_file_text({lost}))).rows;
   ASSERT_EQ(back.size(), 1u);
   expect_same(back[0], lost);
 }
@@ -147,6 +154,32 @@ TEST(TrackFile, OneOfTheFirstReleasesHasItsExposureAndNoNoiseOrBlur) {
   EXPECT_EQ(rows[0].blur.shutter, 0);
 }
 
+/// Which camera and which tag: the same bits, in every row.
+TEST(TrackFile, SaysWhatItIsATrackOf) {
+  const TemporaryFolder folder;
+  CameraModel camera{640, 480, 600.1, 600.2, 319.3, 239.7, {-0.1, 0.02, 1.0 / 3, 0, 0, 0, 0, 1e-9}};
+  const PrintedTag tag{"tag25h9", 7, 0.14};
+  std::vector<TrackRow> rows(2);
+  rows[1].frame = 1;
+  const std::string text = track_file_text(rows, TrackSubject{camera, tag});
+  const TrackFile file = read_track_file(folder.write("track.csv", text));
+  ASSERT_TRUE(file.subject);
+  EXPECT_EQ(file.subject->camera, camera);
+  EXPECT_EQ(file.subject->tag, tag);
+  EXPECT_EQ(file.rows.size(), 2u);
+  EXPECT_FALSE(read_track_file(folder.write("bare.csv", std::string(kPoseHeader) + "3" + kIdentity)).subject);
+  EXPECT_FALSE(read_track_file(folder.path("bare.csv")).has_times);
+}
+
+/// Spreadsheets mark the bytes' order and write semicolons, where the language has decimal commas.
+TEST(TrackFile, WhatSpreadsheetsWriteIsRead) {
+  std::string text = "\xEF\xBB\xBF" + std::string(kPoseHeader) + "3" + kIdentity;
+  EXPECT_EQ(read(text).at(0).frame, 3);
+  std::replace(text.begin(), text.end(), ',', ';');
+  text.replace(text.rfind(";1\n"), 3, ";0,75\n");
+  EXPECT_EQ(read(text).at(0).camera_from_tag.translation_m.z, 0.75);
+}
+
 TEST(TrackFile, ColumnsAreFoundByNameAndUnknownOnesLeftAlone) {
   const std::vector<TrackRow> rows =
       read("tz,ty,tx,note,r22,r21,r20,r12,r11,r10,r02,r01,r00,frame\n3,2,1,hello,1,0,0,0,1,0,0,0,1,6\n");
@@ -161,7 +194,7 @@ TEST(TrackFile, LineEndsOfOtherSystemsAndAnEmptyLastLineAreFine) {
 
 TEST(TrackFile, ShippedPosesAreRotations) {
   for (const char* name : {"matte", "gloss", "mirror"})
-    EXPECT_EQ(read_track_file(std::string(CATCHLIGHT_SOURCE_DIR "/recordings/") + name + "/poses.csv").size(), 36u) << name;
+    EXPECT_EQ(read_track_file(std::string(CATCHLIGHT_SOURCE_DIR "/recordings/") + name + "/poses.csv").rows.size(), 36u) << name;
 }
 
 struct Damage {

@@ -136,7 +136,7 @@ ReplayResult replay_truth(Recording recording, const ReplayOptions& options, Log
   if (!recording.scene.is_by_hand("glare.enabled")) recording.scene.glare.enabled = false;
   recording.scene.lens.noise = Switch::off;
   std::optional<std::vector<TrackRow>> known;  // read before the work, as it may be damaged
-  if (recording.poses_csv) known = tracking::read_track_file(*recording.poses_csv);
+  if (recording.poses_csv) known = tracking::read_track_file(*recording.poses_csv).rows;
   Session session(std::move(recording), {.keeps_track = true}, log);
   TruthFrames truth(session.recording().folder);
   ReplayResult result;
@@ -174,7 +174,7 @@ ReplayResult replay_baseline(Recording recording, const ReplayOptions& options, 
   const Baseline baseline(recording.folder);
   std::set<std::int64_t> kept_anew;
   if (options.bless) kept_anew = keep_track(recording, baseline, log);
-  const std::vector<TrackRow> known = tracking::read_track_file(baseline.track_file());
+  const std::vector<TrackRow> known = tracking::read_track_file(baseline.track_file()).rows;
   Session session(std::move(recording), {.track_file = options.bless ? baseline.track_file() : "", .keeps_track = true}, log);
   ReplayResult result;
   result.kept.emplace();

@@ -111,7 +111,7 @@ class ExposureCommand : public ::testing::Test {
   std::vector<cv::Point> object_pixels(const std::string& name, int frame) const {
     const CameraModel camera = tracking::read_camera_file(folder_.path("still/camera.yaml"));
     TrackRow row;
-    for (const TrackRow& other : tracking::read_track_file(folder_.path(name + ".csv")))
+    for (const TrackRow& other : tracking::read_track_file(folder_.path(name + ".csv")).rows)
       if (other.frame == frame) row = other;
     EXPECT_TRUE(row.found) << frame;
     const glm::dmat3 stood_up = glm::dmat3(glm::rotate(glm::dmat4(1), glm::radians(12.0), glm::dvec3(0, 0, 1)) *

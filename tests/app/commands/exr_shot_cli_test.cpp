@@ -40,7 +40,7 @@ TEST_F(ExrShot, AttributesSayRateTimecodeCameraAndSoftware) {
   EXPECT_EQ(attributes.time_code, "10:00:01:00") << "the frame after 10:00:00:23";
   EXPECT_THAT(attributes.software, HasSubstr("Catchlight"));
   const CameraModel camera = tracking::read_camera_file(copy_ + "/camera.yaml");
-  const TrackRow row = tracking::read_track_file(recording() + "/poses.csv").at(1);
+  const TrackRow row = tracking::read_track_file(recording() + "/poses.csv").rows.at(1);
   // A point above the tag's centre; the tag lies on a table, so it is up in the world.
   const glm::dvec3 seen_m = row.camera_from_tag * glm::dvec3(0, 0, 0.05);
   const glm::dvec4 world_m(0, 0.05, 0, 1);

@@ -38,7 +38,7 @@ class TrackCommand : public ::testing::Test {
   std::vector<TrackRow> tracked(const std::string& footage, const std::string& name, std::vector<std::string> more = {}) {
     const CommandResult result = track(footage, folder_.path(name), std::move(more));
     EXPECT_EQ(result.exit_code, 0) << result.error;
-    return tracking::read_track_file(folder_.path(name));
+    return tracking::read_track_file(folder_.path(name)).rows;
   }
 
   TemporaryFolder folder_;
@@ -97,10 +97,23 @@ TEST_F(TrackCommand, ATagThatIsNeverFoundIsAFailureUnlessItIsAllowed) {
   EXPECT_FALSE(fs::exists(output));
   EXPECT_EQ(track(video, output, {"--tag.id", "17", "--allow-lost"}).exit_code, 0);
   EXPECT_TRUE(fs::exists(output));
-  const CommandResult nothing_in_file = track(video, output, {"-y", "--track", output});
+  const CommandResult nothing_in_file = track(video, folder_.path("again.csv"), {"--tag.id", "17", "--track", output});
   EXPECT_EQ(nothing_in_file.exit_code, 1);
   EXPECT_THAT(nothing_in_file.error, HasSubstr("no frame of it has a pose"));
   EXPECT_EQ(track(video, output, {"-y", "--tag.id", "17", "--causal"}).exit_code, 1) << "known at the end alone";
+}
+
+TEST_F(TrackCommand, ATrackOfAnotherCameraOrTagIsRefusedAndMissingRowsAreSaidToBe) {
+  const std::string video = footage(4), rows = folder_.path("rows.csv"), output = folder_.path("track.jsonl");
+  tracked(video, "rows.csv", {"--frames", "0:3"});
+  EXPECT_THAT(track(video, output, {"--track", rows}).error, HasSubstr("rows.csv has no row for 1 of them"));
+  const CommandResult other_tag = track(video, output, {"-y", "--track", rows, "--tag.size_m", "0.2"});
+  EXPECT_EQ(other_tag.exit_code, 1);
+  EXPECT_THAT(other_tag.error, HasSubstr("and the scene's tag is tag36h11 #0 of 200 mm"));
+  const CommandResult other_camera =
+      run_catchlight({"track", video, "-y", "-o", output, "--scene", kRecording + "/scene.toml", "--fov", "60", "--track", rows});
+  EXPECT_EQ(other_camera.exit_code, 1);
+  EXPECT_THAT(other_camera.error, HasSubstr("was tracked with another camera"));
 }
 
 TEST_F(TrackCommand, FramesBeforeTheDamageAreSolved) {
@@ -110,7 +123,7 @@ TEST_F(TrackCommand, FramesBeforeTheDamageAreSolved) {
   const CommandResult result = track(video, folder_.path("damaged.csv"));
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.error, HasSubstr("video.mkv"));
-  const auto rows = tracking::read_track_file(folder_.path("damaged.csv"));
+  const auto rows = tracking::read_track_file(folder_.path("damaged.csv")).rows;
   ASSERT_GE(rows.size(), 2u);
   ASSERT_LT(rows.size(), 12u);
   for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -85,7 +85,7 @@ TEST_F(VignettedRecording, ReferenceScalesTheObjectAgainstTheTag) {
   const Image scaled = traced("with", {}), even = traced("without", {"--lens.vignetting", "false"});
   const glm::dvec2 middle(319.5, 239.5);
   const auto passed = [&](const glm::dvec2& px) { return 1 + 20 * glm::dot(px - middle, px - middle) / (320 * 320 + 240 * 240); };
-  const TrackRow row = tracking::read_track_file(recording_ + "/poses.csv").front();
+  const TrackRow row = tracking::read_track_file(recording_ + "/poses.csv").rows.front();
   const glm::dvec3 tag = row.camera_from_tag.translation_m;
   const glm::dvec2 tag_px = middle + 600.0 * glm::dvec2(tag) / tag.z;
   cv::Mat inside;

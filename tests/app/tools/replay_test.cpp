@@ -139,7 +139,7 @@ TEST(Baseline, KeepsTheTrackAndChoosesFramesThatShowTheTag) {
   EXPECT_FALSE(baseline.is_kept());
   EXPECT_THAT(baseline.keep(rows_found({false, true, true, true, false, true, false})), ElementsAre(1, 3, 5));
   EXPECT_TRUE(baseline.is_kept());
-  EXPECT_EQ(tracking::read_track_file(baseline.track_file()).size(), 7u);
+  EXPECT_EQ(tracking::read_track_file(baseline.track_file()).rows.size(), 7u);
   EXPECT_THAT(baseline.keep(rows_found({false, true})), ElementsAre(1)) << "a frame is kept once";
   EXPECT_THAT(message_of<Error>([&] { baseline.keep(rows_found({false, false})); }), HasSubstr("found in no frame"));
 }

@@ -192,6 +192,7 @@ TEST(JsonLinesTrack, NumbersSurviveAndWhatWasNotMeasuredIsNull) {
   measured.black = {1e-17, 0, 2.0 / 3};
   measured.corner_sigma_px = 0.1 + 0.2;
   measured.ambiguity = 0.7;
+  measured.pose_covariance.emplace()[6 * 1 + 5] = 2e-7;
   bare.has_exposure = false;
   std::istringstream text(written("path.jsonl", {measured, bare}, shot()));
   std::string line;
@@ -201,15 +202,18 @@ TEST(JsonLinesTrack, NumbersSurviveAndWhatWasNotMeasuredIsNull) {
   EXPECT_EQ(first.at("black"), nlohmann::json({1e-17, 0.0, 2.0 / 3}));
   EXPECT_EQ(first.at("corner_sigma_px"), 0.1 + 0.2);
   EXPECT_EQ(first.at("ambiguity"), 0.7);
+  EXPECT_EQ(first.at("pose_covariance").at(1).at(5), 2e-7) << "the turn about y with the way along z";
   std::getline(text, line);
   EXPECT_TRUE(nlohmann::json::parse(line).at("exposure").is_null());
   EXPECT_TRUE(nlohmann::json::parse(line).at("black").is_null());
+  EXPECT_TRUE(nlohmann::json::parse(line).at("pose_covariance").is_null());
 }
 
 // --- all of them ------------------------------------------------------------------------------------------------------
 
 TEST(TrackExport, CsvIsTheTrackFile) {
-  EXPECT_EQ(written("track.csv", orbit(), shot()), tracking::track_file_text(orbit()));
+  EXPECT_EQ(written("track.csv", orbit(), shot()),
+            tracking::track_file_text(orbit(), tracking::TrackSubject{shot().camera, shot().scene.tag.target()}));
 }
 
 TEST(TrackExport, UnknownExtensionNamesThoseThereAre) {
