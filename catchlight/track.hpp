@@ -48,6 +48,9 @@ struct BlurModel {
   TagMotion motion;
   double shutter = 0;    ///< share of the frame's interval that it is open; 0: the footage shows no motion blur
   double focus_px2 = 0;  ///< variance along each axis by lens and pixel, without motion; 0: not measured
+  /// How far the camera turned about its x and y axes while the shutter was open, beyond what shutter and motion say: a jerk that
+  /// this frame's own blur shows.
+  glm::dvec2 shake_rad{0.0};
 };
 
 /// What is known of one frame: its pose, its exposure and what the camera did to it.

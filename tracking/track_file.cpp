@@ -228,7 +228,10 @@ class Reader {
     const auto vector = [&](const std::string& name) {
       return glm::dvec3(number_or(name + "_x", 0), number_or(name + "_y", 0), number_or(name + "_z", 0));
     };
-    row.blur = {{vector("turn"), vector("shift")}, number_or("shutter", 0), number_or("focus_px2", 0)};
+    row.blur = {{vector("turn"), vector("shift")},
+                number_or("shutter", 0),
+                number_or("focus_px2", 0),
+                {number_or("shake_x", 0), number_or("shake_y", 0)}};
     return row;
   }
 
@@ -247,7 +250,7 @@ std::string header_text(bool has_subject) {
       ",state,exposure_r,exposure_g,exposure_b,black_r,black_g,black_b,corner_sigma_px,ambiguity,"
       "blur_xx_px2,blur_xy_px2,blur_yy_px2,noise_codes,noise_slope_r,noise_slope_g,noise_slope_b,noise_floor_r,noise_floor_g,"
       "noise_floor_b,noise_correlation_rg,noise_correlation_rb,noise_correlation_gb,"
-      "turn_x,turn_y,turn_z,shift_x,shift_y,shift_z,shutter,focus_px2";
+      "turn_x,turn_y,turn_z,shift_x,shift_y,shift_z,shutter,focus_px2,shake_x,shake_y";
   for_each_covariance_column([&](const std::string& name, std::size_t, std::size_t) { text += ',' + name; });
   return text + (has_subject ? kSubjectColumns : "") + '\n';
 }
@@ -281,7 +284,8 @@ std::string row_text(const TrackRow& row) {
   const TagMotion& motion = row.blur.motion;
   for (const glm::dvec3& three : {row.noise.slope, row.noise.floor, row.noise.correlation, motion.turn_rad, motion.shift_m})
     for (int i = 0; i < 3; ++i) text += ',' + number_text(three[i]);
-  for (const double number : {row.blur.shutter, row.blur.focus_px2}) text += ',' + number_text(number);
+  const glm::dvec2& shake = row.blur.shake_rad;
+  for (const double number : {row.blur.shutter, row.blur.focus_px2, shake.x, shake.y}) text += ',' + number_text(number);
   return text + covariance_text(row);
 }
 

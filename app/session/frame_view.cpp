@@ -69,8 +69,16 @@ PlanEntry defocus_entry(Switch wanted, const std::vector<TrackRow>& rows, const 
               (added > 0 ? fixed_text(std::sqrt(added), 2) + " px more than a pixel's own" : "no more than a pixel's own")};
 }
 
-PlanEntry motion_entry(const SceneSettings::Lens& settings, const BlurModel& blur, const std::string& not_measured) {
+/// A shutter that is set by hand says all there is.
+bool draws_shake(const SceneSettings::Lens& settings) {
+  return settings.motion_blur != Switch::off && settings.shutter == 0;
+}
+
+PlanEntry motion_entry(const SceneSettings::Lens& settings, const std::vector<TrackRow>& rows, const std::string& not_measured) {
+  const BlurModel& blur = rows.back().blur;
   const double share = shutter_share(settings, blur);
+  const bool shakes = draws_shake(settings) &&
+                      std::ranges::any_of(rows, [](const TrackRow& row) { return row.blur.shake_rad != glm::dvec2(0.0); });
   std::string why;
   if (settings.motion_blur == Switch::off)
     why = "switched off";
@@ -83,7 +91,8 @@ PlanEntry motion_entry(const SceneSettings::Lens& settings, const BlurModel& blu
   else
     why = "the tag's edges show no blur along its motion";
   if (share > 0 && settings.shutter == 0 && blur.shutter == 0) why += "; switched on, for half of the interval";
-  return {"lens.motion_blur", share > 0 ? "on" : "off", why};
+  if (shakes) why += "; frames in which it is blurred otherwise, as by a jerk, are drawn with their own blur";
+  return {"lens.motion_blur", share > 0 || shakes ? "on" : "off", why};
 }
 
 PlanEntry vignetting_entry(Switch wanted, const glm::dvec3& vignetting) {
@@ -177,6 +186,7 @@ render::CameraEffects camera_effects(const SceneSettings::Lens& settings, const 
   effects.defocus_px2 = defocus_px2(settings.defocus, row.blur);
   const double shutter = shutter_share(settings, row.blur);
   effects.motion = {row.blur.motion.turn_rad * shutter, row.blur.motion.shift_m * shutter};
+  if (draws_shake(settings)) effects.motion.turn_rad += glm::dvec3(row.blur.shake_rad, 0);
   return effects;
 }
 
@@ -189,7 +199,7 @@ std::vector<PlanEntry> lens_plan(const SceneSettings& scene, const std::vector<T
                     no_blur = not_measured(rows, has_track_file,
                                            is_direct ? "the tag's print fits in no frame" : "needs tag.refinement direct");
   return {noise_entry(settings.noise, rows.back().noise, frame.color(), no_noise), defocus_entry(settings.defocus, rows, no_blur),
-          motion_entry(settings, rows.back().blur, no_blur), vignetting_entry(settings.vignetting, vignetting),
+          motion_entry(settings, rows, no_blur), vignetting_entry(settings.vignetting, vignetting),
           chroma_entry(settings.chroma_subsampling, frame.color_block_shift())};
 }
 

@@ -52,7 +52,7 @@ TrackRow random_row(std::mt19937_64& random, std::int64_t frame) {
   row.noise_codes = uniform(random);
   row.ambiguity = uniform(random);
   row.noise = {vector(), vector(), vector()};
-  row.blur = {{vector(), vector()}, uniform(random), uniform(random)};
+  row.blur = {{vector(), vector()}, uniform(random), uniform(random), {uniform(random), uniform(random)}};
   PoseCovariance& covariance = row.pose_covariance.emplace();
   for (std::size_t i = 0; i < 6; ++i)
     for (std::size_t j = i; j < 6; ++j) covariance[6 * i + j] = covariance[6 * j + i] = 1e-7 * uniform(random);
@@ -91,6 +91,8 @@ void expect_same(const TrackRow& a, const TrackRow& b) {
   EXPECT_TRUE(same_bits(a.blur.motion.shift_m, b.blur.motion.shift_m));
   EXPECT_TRUE(same_bits(a.blur.shutter, b.blur.shutter));
   EXPECT_TRUE(same_bits(a.blur.focus_px2, b.blur.focus_px2));
+  EXPECT_TRUE(same_bits(a.blur.shake_rad.x, b.blur.shake_rad.x));
+  EXPECT_TRUE(same_bits(a.blur.shake_rad.y, b.blur.shake_rad.y));
   EXPECT_EQ(a.pose_covariance, b.pose_covariance);
 }
 
@@ -115,10 +117,10 @@ TEST(TrackFile, LostFrameHasEmptyPoseCells) {
       "frame,time_s,found,r00,r01,r02,r10,r11,r12,r20,r21,r22,tx,ty,tz,state,exposure_r,exposure_g,exposure_b,black_r,black_g,"
       "black_b,corner_sigma_px,ambiguity,blur_xx_px2,blur_xy_px2,blur_yy_px2,noise_codes,"
       "noise_slope_r,noise_slope_g,noise_slope_b,noise_floor_r,noise_floor_g,noise_floor_b,noise_correlation_rg,"
-      "noise_correlation_rb,noise_correlation_gb,turn_x,turn_y,turn_z,shift_x,shift_y,shift_z,shutter,focus_px2,"
+      "noise_correlation_rb,noise_correlation_gb,turn_x,turn_y,turn_z,shift_x,shift_y,shift_z,shutter,focus_px2,shake_x,shake_y,"
       "cov_rx_rx,cov_rx_ry,cov_rx_rz,cov_rx_tx,cov_rx_ty,cov_rx_tz,cov_ry_ry,cov_ry_rz,cov_ry_tx,cov_ry_ty,cov_ry_tz,"
       "cov_rz_rz,cov_rz_tx,cov_rz_ty,cov_rz_tz,cov_tx_tx,cov_tx_ty,cov_tx_tz,cov_ty_ty,cov_ty_tz,cov_tz_tz\n"
-      "4,0.5,0,,,,,,,,,,,,,lost,1,1,1,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,,,,,,,,,,,,,,,,,,,,,\n");
+      "4,0.5,0,,,,,,,,,,,,,lost,1,1,1,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,,,,,,,,,,,,,,,,,,,,,\n");
   const std::vector<TrackRow> back = read_track_file(folder.write("track.csv", track_file_text({lost}))).rows;
   ASSERT_EQ(back.size(), 1u);
   expect_same(back[0], lost);

@@ -20,7 +20,16 @@ Covariance2 motion_covariance(const CameraModel& camera, const RigidTransform& c
 /// are shutter^2 times motion's, whatever the focus: least squares over all rows, those that do not fit weighted down (Huber).
 /// 0 where that is not four times its own standard error.
 /// Focus: what then is left, the mean of both axes; the median of seven frames.
+/// A frame whose blur is certainly another (the camera was jerked) has its own: it is the focus along which it is sharpest, and
+/// the line that explains the rest, as a turn of the camera beyond shutter and motion. Certainly: beyond five times what frames
+/// are off as a rule, growing from nothing there, so that what is measured of still frames does not make them flicker.
 void measure_blur(std::vector<TrackRow>& rows, const CameraModel& camera, double tag_size_m);
+
+/// A frame's measured blur less what focus, shutter and motion say of it.
+struct BlurExcess {
+  double even = 0;           ///< the mean of both axes
+  glm::dvec2 directed{0.0};  ///< half of xx - yy, and xy
+};
 
 /// The same of live footage: each row by those before it.
 class BlurMeter {
@@ -34,6 +43,7 @@ class BlurMeter {
   double tag_size_m_;
   std::vector<TrackRow> last_;
   std::vector<Covariance2> motions_;  ///< one for each of those rows
+  std::vector<BlurExcess> excesses_;  ///< of those that were measured
 };
 
 }  // namespace catchlight::tracking

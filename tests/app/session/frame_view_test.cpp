@@ -226,6 +226,79 @@ TEST(Blur, AFewWrongFramesDoNotDecide) {
   EXPECT_NEAR(rows[23].blur.focus_px2, 0.7, 0.1);
 }
 
+/// Still rows, of which frame 30 is blurred by another 8 px^2 along a line; errors of 0.05 px^2.
+std::vector<TrackRow> jerked(std::vector<TrackRow> rows, const glm::dvec2& direction) {
+  rows = blurred(std::move(rows), 0.7, 0, 0.05);
+  Covariance2& blur = rows[30].blur_px2;
+  blur.xx += 8 * direction.x * direction.x, blur.xy += 8 * direction.x * direction.y, blur.yy += 8 * direction.y * direction.y;
+  return rows;
+}
+
+std::vector<TrackRow> still(int frames) {
+  std::vector<TrackRow> rows = swinging(frames);
+  for (TrackRow& row : rows) row.camera_from_tag = rows[0].camera_from_tag;
+  return rows;
+}
+
+/// What of the row's blur has a direction, as it is drawn.
+Covariance2 drawn_motion(const TrackRow& row) {
+  const render::TagMotion motion = camera_effects({}, row, noisy_frame(scene(), glm::dvec3(0), 0, 1)).motion;
+  return motion_covariance(camera(), row.camera_from_tag, {motion.turn_rad, motion.shift_m}, 0.08);
+}
+
+/// One frame of sixty is jerked, and no shutter explains it.
+TEST(Blur, AJerkedFrameIsDrawnWithItsOwnBlur) {
+  const glm::dvec2 direction(0.8, 0.6);
+  for (const std::vector<TrackRow>& before : {still(60), swinging(60)}) {
+    std::vector<TrackRow> rows = jerked(before, direction);
+    measure_blur(rows, camera(), 0.08);
+    const Covariance2 drawn = drawn_motion(rows[30]);
+    EXPECT_NEAR(drawn.xx, 8 * 0.64, 0.3);
+    EXPECT_NEAR(drawn.xy, 8 * 0.48, 0.3);
+    EXPECT_NEAR(drawn.yy, 8 * 0.36, 0.3);
+    EXPECT_NEAR(rows[30].blur.focus_px2, 0.7, 0.2) << "across the line nothing has changed";
+    EXPECT_NEAR(rows[29].blur.focus_px2, 0.7, 0.1);
+    EXPECT_EQ(rows[29].blur.shake_rad, glm::dvec2(0.0));
+  }
+}
+
+TEST(Blur, LiveFootageHasItsJerkInTheFrameItself) {
+  std::vector<TrackRow> rows = jerked(still(60), {0, 1});
+  BlurMeter meter(camera(), 0.08);
+  for (TrackRow& row : rows) meter.add(row);
+  EXPECT_NEAR(drawn_motion(rows[30]).yy, 8, 0.5);
+  EXPECT_EQ(rows[31].blur.shake_rad, glm::dvec2(0.0));
+}
+
+/// What is measured of still frames has errors, which must not be drawn: edges would flicker.
+TEST(Blur, StillFramesGetNoBlurOfTheirOwn) {
+  std::vector<TrackRow> rows = blurred(still(1000), 0.7, 0, 0.1);
+  measure_blur(rows, camera(), 0.08);
+  EXPECT_LE(std::ranges::count_if(rows, [](const TrackRow& row) { return row.blur.shake_rad != glm::dvec2(0.0); }), 2);
+}
+
+/// Focus that is lost in one frame has no direction.
+TEST(Blur, AFrameOutOfFocusIsDrawnOutOfFocus) {
+  std::vector<TrackRow> rows = blurred(still(60), 0.7, 0, 0.02);
+  rows[30].blur_px2.xx += 3, rows[30].blur_px2.yy += 3;
+  measure_blur(rows, camera(), 0.08);
+  EXPECT_NEAR(rows[30].blur.focus_px2, 3.7, 0.1);
+  EXPECT_LT(drawn_motion(rows[30]).xx, 0.1);
+  EXPECT_NEAR(rows[29].blur.focus_px2, 0.7, 0.05);
+}
+
+TEST(CameraEffects, AShutterThatIsSetByHandSaysAllThereIs) {
+  TrackRow row;
+  row.blur.shake_rad = {0.01, 0.02};
+  const Frame frame = noisy_frame(scene(), glm::dvec3(0), 0, 1);
+  SceneSettings::Lens lens;
+  EXPECT_EQ(camera_effects(lens, row, frame).motion.turn_rad, glm::dvec3(0.01, 0.02, 0));
+  lens.shutter = 0.25;
+  EXPECT_EQ(camera_effects(lens, row, frame).motion.turn_rad, glm::dvec3(0));
+  lens = {}, lens.motion_blur = Switch::off;
+  EXPECT_EQ(camera_effects(lens, row, frame).motion.turn_rad, glm::dvec3(0));
+}
+
 TEST(Blur, LiveRowsKnowThePastAlone) {
   const std::vector<TrackRow> rows = blurred(swinging(60), 0.7, 0.5, 0.02);
   BlurMeter all(camera(), 0.08), first_half(camera(), 0.08);
