@@ -178,6 +178,10 @@ SolvedShot Session::solve() {
   SolvedShot solved = solve_shot(*footage_, camera_, recording_.scene, options_.range, log_, pass_.report.stages);
   if (solved.never_found && solved.damage) log_.warn(*solved.damage);
   if (solved.never_found) note_never_found(*solved.never_found);
+  if (!solved.is_whole)
+    log_.info(
+        "grain, focus and motion blur are measured only as far as this part needs tracking, and may differ from the whole's; "
+        "`catchlight track -o track.csv` without --frames, then --track track.csv, draws any part as the whole would be");
   return solved;
 }
 

@@ -46,7 +46,8 @@ SolvedShot solve_shot(MediaSource& source, const CameraModel& camera, const Scen
   Progress progress(log, "track", frames_to_track(source.info(), range));
   const auto decode = [&]() -> std::optional<Frame> {
     std::optional<Frame> frame = stages.measure("track decode", [&] { return source.read(); });
-    return frame && frame->number() < read_range.end ? std::move(frame) : std::nullopt;
+    shot.is_whole = !frame || frame->number() < read_range.end;
+    return shot.is_whole ? std::move(frame) : std::nullopt;
   };
   try {
     BoundedQueue<Frame> decoded(kWaitingFrames);

@@ -17,6 +17,7 @@ namespace catchlight::app {
 
 struct SolvedShot {
   std::vector<TrackRow> rows;              ///< from the footage's first frame to the range's end
+  bool is_whole = true;                    ///< no frame of the footage was left out, beyond the range either
   std::optional<std::string> damage;       ///< a text on the damage that ended the footage early
   std::optional<std::string> never_found;  ///< what to say where the tag is in none of the frames, those beyond the range too
 };

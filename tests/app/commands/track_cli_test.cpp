@@ -23,7 +23,7 @@ class TrackCommand : public ::testing::Test {
   std::string footage(int frames) {
     const std::string file = folder_.path("video.mkv");
     const std::string command =
-        "ffmpeg -v error -nostdin -i " + kRecording + "/video.mp4 -frames:v " + std::to_string(frames) + " -c copy " + file;
+        "ffmpeg -v error -nostdin -y -i " + kRecording + "/video.mp4 -frames:v " + std::to_string(frames) + " -c copy " + file;
     EXPECT_EQ(std::system(command.c_str()), 0);
     return file;
   }
@@ -76,6 +76,13 @@ TEST_F(TrackCommand, TheFirstFramesOfACausalTrackDoNotDependOnLaterOnes) {
 TEST_F(TrackCommand, ProgressCountsTheFramesThatAreReadBeyondTheRange) {
   const std::string error = track(footage(6), folder_.path("track.csv"), {"--frames", "0:2"}).error;
   EXPECT_THAT(error, HasSubstr("6/26 frames")) << "a second more than the range; Matroska does not say how many there are";
+}
+
+TEST_F(TrackCommand, APartIsSaidToBeMeasuredByItself) {
+  const std::string line = "may differ from the whole's";
+  EXPECT_EQ(count_of(line, track(footage(28), folder_.path("part.csv"), {"--frames", "0:2"}).error), 1);
+  EXPECT_EQ(count_of(line, track(footage(6), folder_.path("all.csv"), {"--frames", "0:2"}).error), 0)
+      << "a second more than the part is all there is";
 }
 
 TEST_F(TrackCommand, LostFramesAreWarnedOfOnceWhereverThePosesComeFrom) {
