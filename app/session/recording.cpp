@@ -16,6 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kVideoNames[] = {"video.mp4", "video.mkv", "video.mov", "video.avi"};
+constexpr const char* kCameraNames[] = {"camera.yaml", "camera.yml", "camera.json", "camera.xml"};
 constexpr const char* kPlateExtensions[] = {".png", ".jpg", ".exr"};
 
 /// A folder of stills counts where it holds at least one numbered file of the kind.
@@ -48,6 +49,12 @@ std::optional<std::string> if_exists(const fs::path& path) {
   return path.string();
 }
 
+std::optional<std::string> find_camera(const fs::path& folder) {
+  for (const char* name : kCameraNames)
+    if (auto file = if_exists(folder / name)) return file;
+  return std::nullopt;
+}
+
 /// "clip" for "/a/clip.mp4", "plate" for "/a/plate/%04d.png".
 std::string name_of_footage(const std::string& location) {
   const fs::path path(location);
@@ -64,7 +71,7 @@ Recording open_folder(const std::string& location) {
   if (footage.size() > 1)
     recording.warnings.push_back("the footage is " + footage[0] + ", not " + footage[1] +
                                  "; to take that, name it instead of the folder, with --scene and --camera");
-  recording.camera_file = if_exists(folder / "camera.yaml");
+  recording.camera_file = find_camera(folder);
   recording.poses_csv = if_exists(folder / "poses.csv");
   recording.truth_folder = if_exists(folder / "truth");
   recording.mask_folder = if_exists(folder / "mask");
@@ -168,16 +175,9 @@ std::unique_ptr<MediaSource> open_footage(const Recording& recording, const Warn
   return MediaSource::open(recording.footage, recording.fps, known());
 }
 
-CameraModel camera_for_footage(const Recording& recording, int width_px, int height_px) {
+CameraModel camera_for_footage(const Recording& recording, int width_px, int height_px, const WarningHandler& warn) {
   if (!recording.camera_file) return tracking::camera_from_field_of_view(width_px, height_px, recording.fov_deg.value());
-  const CameraModel camera = tracking::read_camera_file(*recording.camera_file);
-  if (camera.width_px != width_px || camera.height_px != height_px) {
-    const auto size = [](int width, int height) { return std::to_string(width) + "x" + std::to_string(height); };
-    throw Error(*recording.camera_file + ": is for pictures of " + size(camera.width_px, camera.height_px) + ", but " +
-                recording.footage + " is " + size(width_px, height_px) +
-                "; calibrate at that size, or pass another --camera or --fov");
-  }
-  return camera;
+  return tracking::read_camera_file_for(*recording.camera_file, recording.footage, width_px, height_px, warn);
 }
 
 }  // namespace catchlight::app

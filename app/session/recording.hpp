@@ -37,10 +37,10 @@ struct Recording {
   std::optional<std::string> poses_csv, truth_folder, mask_folder, expected_toml;  ///< where the folder has them
 };
 
-/// Opens what is at `location`: a folder with `video.{mp4,mkv,mov,avi}` or `plate/%04d.{png,jpg,exr}`, camera.yaml and
-/// scene.toml; or bare footage with the scene (or parameters that say what it would) and the camera (or field of view) among the
-/// overrides. The footage itself is not
-/// opened. Throws Error that says what is missing and how to supply it, and UsageError for overrides that cannot be.
+/// Opens what is at `location`: a folder with `video.{mp4,mkv,mov,avi}` or `plate/%04d.{png,jpg,exr}`, camera.yaml
+/// (or .yml, .json, .xml) and scene.toml; or bare footage with the scene (or parameters that say what it would) and the camera
+/// (or field of view) among the overrides. The footage itself is not opened. Throws Error that says what is missing and how to
+/// supply it, and UsageError for overrides that cannot be.
 Recording open_recording(const std::string& location, const RecordingOverrides& overrides = {});
 
 /// All files that it is read from and that it names, for outputs to leave alone.
@@ -50,8 +50,8 @@ std::vector<std::string> files_of(const Recording& recording);
 /// do.
 std::unique_ptr<MediaSource> open_footage(const Recording& recording, const WarningHandler& warn = {});
 
-/// The camera of a recording whose footage turned out to be of this size. Throws Error naming both sizes where the camera file
-/// has another.
-CameraModel camera_for_footage(const Recording& recording, int width_px, int height_px);
+/// The camera of a recording whose footage turned out to be of this size: as tracking::read_camera_file_for() where there is a
+/// camera file.
+CameraModel camera_for_footage(const Recording& recording, int width_px, int height_px, const WarningHandler& warn = {});
 
 }  // namespace catchlight::app

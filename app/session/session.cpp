@@ -60,7 +60,8 @@ Session::Session(Recording recording, SessionOptions options, Log& log)
       options_(std::move(options)),
       log_(log),
       footage_(open_source(recording_)),
-      camera_(camera_for_footage(recording_, footage_->info().width_px, footage_->info().height_px)),
+      camera_(camera_for_footage(recording_, footage_->info().width_px, footage_->info().height_px,
+                                 [&](const std::string& warning) { log_.warn(warning); })),
       renderer_(recording_.scene, camera_, {options_.wants_layers, options_.wants_frames}, log) {
   check_range(recording_.footage, options_.range, footage_->info());
   for (const std::string& warning : recording_.warnings) log_.warn(warning);

@@ -112,17 +112,12 @@ RadianceMap radiance_of_view(const MergeRequest& request, std::size_t view, Resp
   return map;
 }
 
-std::optional<CameraModel> camera_for(const MergeRequest& request, const Image& image) {
-  if (!request.camera_file) {
-    if (!request.fov_deg) return std::nullopt;
-    return tracking::camera_from_field_of_view(image.width, image.height, *request.fov_deg);
-  }
-  const CameraModel camera = tracking::read_camera_file(*request.camera_file);
-  if (camera.width_px != image.width || camera.height_px != image.height)
-    throw Error(*request.camera_file + ": is for pictures of " + std::to_string(camera.width_px) + " x " +
-                std::to_string(camera.height_px) + ", the photographs are " + std::to_string(image.width) + " x " +
-                std::to_string(image.height) + "; calibrate with pictures taken as these were");
-  return camera;
+std::optional<CameraModel> camera_for(const MergeRequest& request, const Image& image, Log& log) {
+  if (request.camera_file)
+    return tracking::read_camera_file_for(*request.camera_file, "each photograph", image.width, image.height,
+                                          [&](const std::string& warning) { log.warn(warning); });
+  if (!request.fov_deg) return std::nullopt;
+  return tracking::camera_from_field_of_view(image.width, image.height, *request.fov_deg);
 }
 
 void check_circle(const BallCircle& circle, const Image& image) {
@@ -207,7 +202,7 @@ render::Probe merge_probe(const MergeRequest& request, Log& log) {
   std::vector<BallPicture> views;
   for (std::size_t i = 0; i < request.views.size(); ++i) {
     RadianceMap radiance = radiance_of_view(request, i, responses, log);
-    const std::optional<CameraModel> camera = camera_for(request, radiance.image);
+    const std::optional<CameraModel> camera = camera_for(request, radiance.image, log);
     const BallView ball = ball_in(request, i, radiance.image, camera, log);
     const glm::dmat3 orientation = orientation_of(request, i, radiance.image, camera, log);
     views.push_back({std::move(radiance), ball, orientation});

@@ -241,6 +241,14 @@ TEST(CameraForFootage, OtherSizeNamesBothAndTheFile) {
   EXPECT_THAT(message, HasSubstr("is 1280x720"));
 }
 
+TEST(CameraForFootage, ACameraThatPythonWroteIsFoundInTheFolder) {
+  const RecordingFolder folder;
+  std::filesystem::remove(folder.path("camera.yaml"));
+  folder.write("camera.json", R"({"image_width": 640, "image_height": 480, "dist_coeffs": [0, 0, 0, 0],
+    "camera_matrix": [[500, 0, 319.5], [0, 500, 239.5], [0, 0, 1]]})");
+  EXPECT_EQ(camera_for_footage(open_recording(folder.path()), 640, 480).fx_px, 500);
+}
+
 /// tan(45 deg) = 1: at 90 degrees the focal length is half the width.
 TEST(CameraForFootage, FieldOfViewGoesBeforeTheFoldersCamera) {
   const RecordingFolder folder;
