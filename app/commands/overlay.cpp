@@ -83,8 +83,11 @@ void overlay(const Options& options, Context& context) {
   if (has_lines) lines.emplace(options.track_out, shot, options.sink.overwrite);
   draw_frames(session, *output, lines ? &*lines : nullptr, options.debug);
 
-  if (has_track && !has_lines)
+  if (has_track && !has_lines) {
     write_track(options.track_out, session.track_rows(), shot, options.sink.overwrite, context.log.warning_handler());
+    if (const std::string settings = importer_settings(options.track_out, session.camera()); !settings.empty())
+      context.log.info(settings);
+  }
   finish_report(session, options.report, options.sink.overwrite, context);
 }
 

@@ -42,6 +42,8 @@ void track(const Options& options, Context& context) {
   } else {
     write_track(options.output, session.track_range(), shot, options.overwrite, context.log.warning_handler());
   }
+  if (const std::string settings = importer_settings(options.output, session.camera()); !settings.empty())
+    context.log.info(settings);
   finish_report(session, options.report, options.overwrite, context);
 }
 

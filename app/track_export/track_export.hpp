@@ -20,6 +20,9 @@ void check_track_format(const std::string& path);
 void write_track(const std::string& path, const std::vector<TrackRow>& rows, const Shot& shot, bool overwrite,
                  const WarningHandler& warn);
 
+/// What a user types into other programs' importers of this file, in one line; empty where the file says all.
+std::string importer_settings(const std::string& path, const CameraModel& camera);
+
 /// Whether a track of that name has a line a frame, which does not ask for those to come.
 bool is_track_of_lines(const std::string& path);
 

@@ -265,5 +265,46 @@ TEST(TrackExport, WhatAFieldOfViewDoesNotSayIsWarnedOf) {
   for (const char* name : {"a.csv", "a.jsonl", "a.tum"}) EXPECT_THAT(warnings(name), IsEmpty());
 }
 
+/// The number behind a word of a message.
+double number_after(const std::string& text, const std::string& word) {
+  const std::size_t at = text.find(word);
+  EXPECT_NE(at, std::string::npos) << word << " in " << text;
+  return at == std::string::npos ? 0 : std::stod(text.substr(at + word.size()));
+}
+
+/// Blender's importer sets Sensor Fit to horizontal, and the focal length from the field of view by the sensor's *height*: pixels
+/// come out square only where the sensor has the picture's aspect.
+TEST(TrackExport, SensorThatIsPrintedGivesBlenderTheCameraOfAChan) {
+  for (const auto& [width_px, height_px] : {std::pair{640, 480}, {1920, 1080}, {1080, 1920}, {960, 544}}) {
+    CameraModel camera = shot().camera;
+    camera.width_px = width_px;
+    camera.height_px = height_px;
+    const std::string text = importer_settings("track.chan", camera);
+    EXPECT_THAT(text, HasSubstr("rotation order ZXY"));
+    const double sensor_width = number_after(text, "sensor width "), sensor_height = number_after(text, "sensor height "),
+                 fov_rad = glm::radians(number_after(text, "field of view is "));
+    const double lens = sensor_height / (2 * std::tan(fov_rad / 2));
+    EXPECT_NEAR(lens / sensor_width * width_px / camera.fy_px, 1, 5e-4) << text;
+  }
+  for (const char* name : {"a.csv", "a.jsonl", "a.tum", "a.glb", "a.gltf"}) EXPECT_EQ(importer_settings(name, shot().camera), "");
+}
+
+/// A shift of 1 moves the picture by the side that Sensor Fit names: the height for an imported glTF camera, the width for a
+/// .chan.
+TEST(TrackExport, ShiftsThatAreWarnedOfPutThePrincipalPointWhereItIs) {
+  const TemporaryFolder folder;
+  Shot odd = shot();
+  odd.camera.cx_px += 31;
+  odd.camera.cy_px -= 17;
+  const double middle_x_px = (odd.camera.width_px - 1) / 2.0, middle_y_px = (odd.camera.height_px - 1) / 2.0;
+  for (const char* name : {"a.chan", "a.gltf", "a.glb"}) {
+    std::string warning;
+    write_track(folder.path(name), orbit(), odd, true, [&](const std::string& text) { warning = text; });
+    const double fit_px = std::string(name) == "a.chan" ? odd.camera.width_px : odd.camera.height_px;
+    EXPECT_NEAR(middle_x_px - fit_px * number_after(warning, "Shift X "), odd.camera.cx_px, 0.05) << name;
+    EXPECT_NEAR(middle_y_px + fit_px * number_after(warning, "Shift Y "), odd.camera.cy_px, 0.05) << name;
+  }
+}
+
 }  // namespace
 }  // namespace catchlight::app
