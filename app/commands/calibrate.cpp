@@ -5,6 +5,7 @@
 
 #include "app/commands/commands.hpp"
 #include "app/commands/help.hpp"
+#include "app/media/read/picture_list.hpp"
 #include "app/support/output_file.hpp"
 #include "app/tools/calibration/collect.hpp"
 #include "app/tools/calibration/report.hpp"
@@ -17,7 +18,8 @@ namespace catchlight::app {
 namespace {
 
 struct Options {
-  std::string footage, output, picture, checkerboard, tags, frames, model = "standard";
+  std::vector<std::string> footage;
+  std::string output, picture, checkerboard, tags, frames, model = "standard";
   TagGrid grid;
   double square_m = 0;
   bool overwrite = false;
@@ -70,17 +72,23 @@ std::string numbers_text(const std::vector<std::int64_t>& numbers) {
   return text;
 }
 
+std::unique_ptr<MediaSource> open_calibration_footage(const Options& options) {
+  std::unique_ptr<MediaSource> source = open_footage_or_pictures(options.footage);
+  if (source->info().is_one_pass && !source->info().is_live)
+    throw UsageError(options.footage.front() + ": is looked at twice, and can be read once; give a file");
+  if (source->info().is_live && parse_frame_range(options.frames).end == FrameRange{}.end)
+    throw UsageError(options.footage.front() + ": has no end; say how many frames to look at, such as --frames 0:900");
+  return source;
+}
+
 CollectedViews views_in(const Options& options, CalibrationBoard& board, Log& log) {
   const FrameRange range = parse_frame_range(options.frames);
-  const std::unique_ptr<MediaSource> source = MediaSource::open(options.footage);
-  if (source->info().is_one_pass && !source->info().is_live)
-    throw UsageError(options.footage + ": is looked at twice, and can be read once; give a file");
-  if (source->info().is_live && range.end == FrameRange{}.end)
-    throw UsageError(options.footage + ": has no end; say how many frames to look at, such as --frames 0:900");
+  const std::unique_ptr<MediaSource> source = open_calibration_footage(options);
+  const std::string& name = options.footage.front();
   CollectedViews views = collect_views(*source, board, range, log);
   if (views.damage) log.warn(*views.damage + "; calibrating with what was read before");
   if (views.frames_with_board == 0)
-    throw Error(options.footage + ": the board was found in none of " + counted(views.frames_tried, "frame") +
+    throw Error(name + ": the board was found in none of " + counted(views.frames_tried, "frame") +
                 "; is it described as it is (" +
                 (options.tags.empty() ? "inner corners, not squares; all of them in the picture, with white around"
                                       : "family, ids, columns and rows; four tags or more in the picture") +
@@ -114,6 +122,7 @@ void write_picture(const std::string& path, const Calibration& calibration, bool
 }
 
 void calibrate(const Options& options, const Given& given, Log& log) {
+  check_camera_format(options.output);
   check_output_path(options.output, options.overwrite);
   if (!options.picture.empty()) check_output_path(options.picture, options.overwrite);
   if (!options.picture.empty() && !options.picture.ends_with(".png"))
@@ -127,7 +136,7 @@ void calibrate(const Options& options, const Given& given, Log& log) {
     calibration =
         solve_camera(measured_again(collected, *board, calibration.camera), collected.width_px, collected.height_px, most);
 
-  write_text_file(options.output, camera_yaml(calibration), options.overwrite);
+  write_text_file(options.output, camera_text(calibration, options.output), options.overwrite);
   if (!options.picture.empty()) write_picture(options.picture, calibration, options.overwrite);
   std::fputs(calibration_text(calibration).c_str(), stdout);
   for (const std::string& hint : calibration_hints(calibration, most)) log.warn(hint);
@@ -138,8 +147,11 @@ void calibrate(const Options& options, const Given& given, Log& log) {
 void set_up_calibrate(CLI::App& command, Context& context) {
   const auto options = std::make_shared<Options>();
   command.footer("docs/calibration.md says how to film the board.");
-  command.add_option("FOOTAGE", options->footage, "a video or a %04d pattern that shows the board from many sides")->required();
-  command.add_option("-o,--output", options->output, "camera file, YAML")->required();
+  command
+      .add_option("FOOTAGE", options->footage,
+                  "a video, a %04d pattern, or pictures (names or a glob) that show the board from many sides")
+      ->required();
+  command.add_option("-o,--output", options->output, "camera file: .yaml, .json or .xml, OpenCV's own")->required();
   command.add_option("--checkerboard", options->checkerboard, "COLUMNSxROWS of corners where four squares meet");
   CLI::Option* square = command.add_option("--square-m", options->square_m, "side of a square of the checkerboard, metres");
   command.add_option("--tags", options->tags, "COLUMNSxROWS of tags, ids row by row from the top left, as `tag --board` prints");

@@ -176,6 +176,12 @@ Frame::Frame(std::shared_ptr<const AVFrame> picture, std::int64_t number, double
   layout_of(*picture_);
 }
 
+Frame Frame::numbered(std::int64_t number) const {
+  Frame frame = *this;
+  frame.number_ = number;
+  return frame;
+}
+
 int Frame::width_px() const {
   return picture_->width;
 }

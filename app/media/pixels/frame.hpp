@@ -23,6 +23,10 @@ class Frame : public FrameImage {
   std::int64_t number() const { return number_; }  ///< index in a video from 0; the file's own number in a sequence
   double time_s() const { return time_s_; }
   std::chrono::steady_clock::time_point decoded_at() const { return decoded_at_; }
+
+  /// The same frame with another number.
+  Frame numbered(std::int64_t number) const;
+
   int width_px() const;
   int height_px() const;
   const AVFrame& picture() const { return *picture_; }

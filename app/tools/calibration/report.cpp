@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
 #include "catchlight/camera.hpp"
+#include "catchlight/error.hpp"
 #include "catchlight/util/text.hpp"
 
 namespace catchlight::app {
@@ -61,17 +63,37 @@ std::vector<std::string> undetermined_coefficients(const Calibration& calibratio
   return names;
 }
 
+int file_storage_format(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (extension == ".yaml" || extension == ".yml") return cv::FileStorage::FORMAT_YAML;
+  if (extension == ".json") return cv::FileStorage::FORMAT_JSON;
+  if (extension == ".xml") return cv::FileStorage::FORMAT_XML;
+  throw UsageError(path + ": expected a name that ends in .yaml, .yml, .json or .xml");
+}
+
+cv::FileStorage memory_file(const std::string& path) {
+  return {"", cv::FileStorage::WRITE | cv::FileStorage::MEMORY | file_storage_format(path)};
+}
+
+/// Five coefficients, or eight where the last three are used.
+void write_camera(cv::FileStorage& file, const CameraModel& camera) {
+  const bool is_rational = std::any_of(camera.distortion.begin() + 5, camera.distortion.end(), [](double k) { return k != 0; });
+  file << "image_width" << camera.width_px << "image_height" << camera.height_px;
+  file << "camera_matrix" << cv::Mat(cv::Matx33d{camera.fx_px, 0, camera.cx_px, 0, camera.fy_px, camera.cy_px, 0, 0, 1});
+  file << "distortion_coefficients"
+       << cv::Mat(1, is_rational ? 8 : 5, CV_64F, const_cast<double*>(camera.distortion.data())).clone();
+}
+
 }  // namespace
 
-std::string camera_yaml(const Calibration& calibration) {
-  const CameraModel& camera = calibration.camera;
-  const int count = std::max(5, coefficient_count(calibration.lens));
-  cv::FileStorage file("camera.yaml", cv::FileStorage::WRITE | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_YAML);
-  file << "image_width" << camera.width_px << "image_height" << camera.height_px;
-  file << "nframes" << static_cast<int>(calibration.views.size());
-  file << "camera_matrix" << cv::Mat(cv::Matx33d{camera.fx_px, 0, camera.cx_px, 0, camera.fy_px, camera.cy_px, 0, 0, 1});
-  file << "distortion_coefficients" << cv::Mat(1, count, CV_64F, const_cast<double*>(camera.distortion.data())).clone();
-  file << "avg_reprojection_error" << calibration.rms_px;
+void check_camera_format(const std::string& path) {
+  file_storage_format(path);
+}
+
+std::string camera_text(const Calibration& calibration, const std::string& path) {
+  cv::FileStorage file = memory_file(path);
+  write_camera(file, calibration.camera);
+  file << "nframes" << static_cast<int>(calibration.views.size()) << "avg_reprojection_error" << calibration.rms_px;
   return file.releaseAndGetString();
 }
 

@@ -203,6 +203,24 @@ TEST(Calibrate, OnlyTheFramesAskedForAreLookedAt) {
   EXPECT_THAT(result.error, HasSubstr("board seen in 5 of 5 frames tried, of 5"));
 }
 
+TEST(Calibrate, PicturesAreNamedOneByOneOrByAGlobAndTheFileMayBeJson) {
+  const TemporaryFolder stills, out;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < good_places().size(); ++i) {
+    names.push_back(stills.path("view_" + std::to_string(3 * i) + ".png"));
+    cv::imwrite(names.back(), tag_board_frame(good_places()[i]));
+  }
+  std::vector<std::string> options = kTagBoard;
+  options.insert(options.end(), names.begin() + 1, names.end());
+  const CommandResult listed = calibrate(names.front(), out.path("listed.json"), options);
+  expect_barrel_camera(listed, out.path("listed.json"));
+  EXPECT_THAT(listed.output, HasSubstr("\n     27      48 "));
+  EXPECT_TRUE(read_text(out.path("listed.json")).starts_with("{"));
+  const CommandResult globbed = calibrate(stills.path("view_*.png"), out.path("globbed.json"), kTagBoard);
+  EXPECT_EQ(globbed.output, listed.output);
+  EXPECT_EQ(read_text(out.path("globbed.json")), read_text(out.path("listed.json")));
+}
+
 // --- refusals -------------------------------------------------------------------------------------------------------------
 
 TEST(CalibrateRefuses, FootageWithoutTheBoard) {
@@ -255,7 +273,15 @@ TEST(CalibrateRefuses, BadCommandLines) {
   refused("v.mp4", {"--checkerboard", "9x6", "--square-m", "0.025", "--model", "fisheye"}, "--model");
   refused("v.mp4", {"--checkerboard", "9x6", "--square-m", "0.025", "--picture", folder.path("p.jpg")}, "ends in .png");
   refused("rtsp://127.0.0.1:1/x", {"--checkerboard", "9x6", "--square-m", "0.025", "--frames", "4:2"}, "--frames 4:2");
+  refused("/nowhere/*.jpg", {"--checkerboard", "9x6", "--square-m", "0.025"}, "no file matches '/nowhere/*.jpg'", kFailure);
   refused("/nowhere/v.mp4", {"--checkerboard", "9x6", "--square-m", "0.025"}, "no such file: '/nowhere/v.mp4'", kFailure);
+}
+
+TEST(CalibrateRefuses, AFormatThatItDoesNotWrite) {
+  const TemporaryFolder folder;
+  const CommandResult result = calibrate("/nowhere/v.mp4", folder.path("camera.txt"), kCheckerboard);
+  EXPECT_EQ(result.exit_code, kUsage);
+  EXPECT_THAT(result.error, HasSubstr("camera.txt: expected a name that ends in .yaml, .yml, .json or .xml"));
 }
 
 TEST(CalibrateRefuses, ToOverwriteUnlessAllowed) {
@@ -277,16 +303,13 @@ TEST(CalibrateRealPictures, OpenCvsExampleGivesTheCameraThatOthersFind) {
   if (!fs::exists(samples / "left01.jpg"))
     GTEST_SKIP() << "no left01.jpg in " << samples << "; install opencv-doc or set "
                  << "CATCHLIGHT_CHECKERBOARDS";
-  Footage footage;
-  for (int i = 1; i <= 14; ++i) {
-    char name[16];
-    std::snprintf(name, sizeof name, "left%02d.jpg", i);
-    if (fs::exists(samples / name)) footage.add(cv::imread((samples / name).string(), cv::IMREAD_GRAYSCALE));
-  }
   const TemporaryFolder out;
-  const CommandResult result = calibrate(footage.pattern(), out.path("camera.yaml"), kCheckerboard);
+  // There is no left10.jpg.
+  const CommandResult result = calibrate((samples / "left%02d.jpg").string(), out.path("camera.json"), kCheckerboard);
   ASSERT_EQ(result.exit_code, 0) << result.error;
-  const CameraModel camera = tracking::read_camera_file(out.path("camera.yaml"));
+  EXPECT_THAT(result.error, HasSubstr("board seen in 13 of 13 frames tried, of 13"));
+  EXPECT_THAT(result.output, ::testing::ContainsRegex("\n +14 +54 "));
+  const CameraModel camera = tracking::read_camera_file(out.path("camera.json"));
   EXPECT_NEAR(camera.fx_px, 534.5, 3);
   EXPECT_NEAR(camera.fy_px, 534.5, 3);
   EXPECT_NEAR(camera.cx_px, 342, 2);

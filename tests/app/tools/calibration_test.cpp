@@ -277,7 +277,7 @@ TEST(CalibrationFile, IsReadBackToTheBit) {
   const tests::TemporaryFolder folder;
   for (const LensModel most : {LensModel::plain, LensModel::standard, LensModel::rational}) {
     const Calibration result = calibrated(barrel_camera(), 0.1, most);
-    const CameraModel read = tracking::read_camera_file(folder.write("camera.yaml", camera_yaml(result)));
+    const CameraModel read = tracking::read_camera_file(folder.write("camera.yaml", camera_text(result, "camera.yaml")));
     EXPECT_EQ(read.width_px, 640);
     EXPECT_EQ(read.height_px, 480);
     EXPECT_EQ(read.fx_px, result.camera.fx_px);
@@ -285,7 +285,9 @@ TEST(CalibrationFile, IsReadBackToTheBit) {
     EXPECT_EQ(read.cx_px, result.camera.cx_px);
     EXPECT_EQ(read.cy_px, result.camera.cy_px);
     EXPECT_EQ(read.distortion, result.camera.distortion);
-    EXPECT_THAT(camera_yaml(result), HasSubstr("avg_reprojection_error: "));
+    EXPECT_THAT(camera_text(result, "camera.yaml"), HasSubstr("avg_reprojection_error: "));
+    for (const char* name : {"camera.json", "camera.xml"})
+      EXPECT_EQ(tracking::read_camera_file(folder.write(name, camera_text(result, name))), result.camera) << name;
   }
 }
 
