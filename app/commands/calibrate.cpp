@@ -2,12 +2,14 @@
 #include <cstdio>
 #include <memory>
 #include <opencv2/core.hpp>
+#include <optional>
 
 #include "app/commands/commands.hpp"
 #include "app/commands/help.hpp"
 #include "app/media/read/picture_list.hpp"
 #include "app/support/output_file.hpp"
 #include "app/tools/calibration/collect.hpp"
+#include "app/tools/calibration/from_tag.hpp"
 #include "app/tools/calibration/report.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/error.hpp"
@@ -22,6 +24,7 @@ struct Options {
   std::string output, picture, checkerboard, tags, frames, model = "standard";
   TagGrid grid;
   double square_m = 0;
+  std::optional<int> from_tag;
   bool overwrite = false;
 };
 
@@ -58,7 +61,8 @@ std::unique_ptr<CalibrationBoard> tag_board_of(const Options& options, const Giv
 std::unique_ptr<CalibrationBoard> board_of(const Options& options, const Given& given) {
   if (options.checkerboard.empty() == options.tags.empty())
     throw UsageError(
-        "say which board is in the footage: --checkerboard 9x6 --square-m 0.025, or --tags 4x3 --size-m 0.04 --spacing-m 0.05");
+        "say which board is in the footage: --checkerboard 9x6 --square-m 0.025, or --tags 4x3 --size-m 0.04 --spacing-m 0.05; "
+        "or --from-tag 0 for a first guess by the shot's own tag");
   return options.tags.empty() ? checkerboard_of(options, given) : tag_board_of(options, given);
 }
 
@@ -121,13 +125,26 @@ void write_picture(const std::string& path, const Calibration& calibration, bool
   write_text_file(path, {reinterpret_cast<const char*>(png.data()), png.size()}, overwrite);
 }
 
+/// A board is better in every respect but one: the footage may show the shot's own tag alone.
+void calibrate_from_tag(const Options& options, const Given& given, Log& log) {
+  if (!options.checkerboard.empty() || !options.tags.empty() || given.square || given.size || given.spacing ||
+      !options.picture.empty())
+    throw UsageError("--from-tag takes the tag's id, and --family, and no options of boards");
+  const auto source = open_calibration_footage(options);
+  const CameraFromTag result = camera_from_tag(*source, options.footage.front(), options.grid.family, *options.from_tag,
+                                               parse_frame_range(options.frames), log);
+  write_text_file(options.output, camera_text(result.camera, options.output), options.overwrite);
+  std::fputs(camera_from_tag_text(result).c_str(), stdout);
+}
+
 void calibrate(const Options& options, const Given& given, Log& log) {
   check_camera_format(options.output);
   check_output_path(options.output, options.overwrite);
   if (!options.picture.empty()) check_output_path(options.picture, options.overwrite);
   if (!options.picture.empty() && !options.picture.ends_with(".png"))
     throw UsageError(options.picture + ": expected a name that ends in .png");
-  refuse_shared_files({options.output, options.picture}, {options.footage});
+  refuse_shared_files({options.output, options.picture}, options.footage);
+  if (options.from_tag) return calibrate_from_tag(options, given, log);
   const std::unique_ptr<CalibrationBoard> board = board_of(options, given);
   const LensModel most = lens_model(options.model);
   const CollectedViews collected = views_in(options, *board, log);
@@ -159,6 +176,8 @@ void set_up_calibrate(CLI::App& command, Context& context) {
   CLI::Option* size = command.add_option("--size-m", options->grid.size_m, "side of the square that detectors return, metres");
   CLI::Option* spacing = command.add_option("--spacing-m", options->grid.spacing_m, "from centre to centre of the tags, metres");
   command.add_option("--first-id", options->grid.first_id, "the tag at the top left")->capture_default_str();
+  command.add_option("--from-tag", options->from_tag,
+                     "the focal length alone, from footage of one tag of this id that moves and is tilted");
   command
       .add_option("--model", options->model, "at most: plain (no distortion), standard (k1 k2 p1 p2 k3), rational (and k4 k5 k6)")
       ->check(CLI::IsMember({"plain", "standard", "rational"}))

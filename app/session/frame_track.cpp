@@ -164,6 +164,7 @@ struct ShotTrack::Impl {
   tracking::ExposureMatch exposure;
   tracking::GrainMeter grain;
   AbsentTag absent;
+  tracking::FocalMeter focal;
   std::vector<TrackRow> rows;
 };
 
@@ -176,13 +177,16 @@ ShotTrack::ShotTrack(const CameraModel& camera, const SceneSettings& scene) {
                                       exposure_match(camera, scene),
                                       tracking::GrainMeter(camera, target),
                                       {},
+                                      tracking::FocalMeter(camera, target),
                                       {}});
 }
 
 ShotTrack::~ShotTrack() = default;
 
 void ShotTrack::add(const Frame& frame) {
-  const TrackRow row = row_of(frame, impl_->tracker.add(frame.luma(), frame.time_s()), impl_->camera, impl_->target);
+  const tracking::TagObservation& seen = impl_->tracker.add(frame.luma(), frame.time_s());
+  if (seen.state == TrackState::tracking) impl_->focal.add(frame.luma(), seen.corners_px);
+  const TrackRow row = row_of(frame, seen, impl_->camera, impl_->target);
   impl_->exposure.add(frame, row);
   impl_->grain.add(frame, row);
   impl_->absent.add(frame, row.found);
@@ -206,6 +210,10 @@ std::vector<TrackRow> ShotTrack::solve() const {
   impl_->exposure.set_all(rows);
   tracking::measure_blur(rows, impl_->camera, impl_->target.size_m);
   return rows;
+}
+
+std::optional<tracking::FocalEstimate> ShotTrack::focal_length() const {
+  return impl_->focal.estimate();
 }
 
 std::optional<std::string> ShotTrack::warning(const std::vector<TrackRow>& rows) const {

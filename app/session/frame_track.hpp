@@ -11,6 +11,7 @@
 #include "app/settings/scene_settings.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/track.hpp"
+#include "tracking/camera/focal_length.hpp"
 
 namespace catchlight::app {
 
@@ -51,6 +52,9 @@ class ShotTrack {
 
   /// One row a frame. Exposures are those of recorded footage in tracking/camera/exposure_match.hpp.
   std::vector<TrackRow> solve() const;
+
+  /// What the tag's views say of the focal length; empty where they say nothing.
+  std::optional<tracking::FocalEstimate> focal_length() const;
 
   /// What the user should know of the rows that solve() gave, if anything.
   std::optional<std::string> warning(const std::vector<TrackRow>& rows) const;

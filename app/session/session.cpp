@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "app/session/focal_check.hpp"
 #include "app/session/frame_view.hpp"
 #include "app/session/object_scale.hpp"
 #include "app/settings/change_cost.hpp"
@@ -183,6 +184,7 @@ SolvedShot Session::solve() {
     log_.info(
         "grain, focus and motion blur are measured only as far as this part needs tracking, and may differ from the whole's; "
         "`catchlight track -o track.csv` without --frames, then --track track.csv, draws any part as the whole would be");
+  if (solved.focal_length) tell_focal_length(*solved.focal_length, camera_, recording_, log_);
   return solved;
 }
 

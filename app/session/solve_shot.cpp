@@ -60,7 +60,10 @@ SolvedShot solve_shot(MediaSource& source, const CameraModel& camera, const Scen
   } catch (const DamagedMedia& damaged) {
     shot.damage = damaged.what();
   }
-  shot.rows = stages.measure("solve", [&] { return track.solve(); });
+  stages.measure("solve", [&] {
+    shot.rows = track.solve();
+    shot.focal_length = track.focal_length();
+  });
   shot.never_found = track.never_found();
   if (const auto warning = track.warning(shot.rows)) log.warn(*warning);
   std::erase_if(shot.rows, [&](const TrackRow& row) { return row.frame >= range.end; });

@@ -12,6 +12,7 @@
 #include "app/support/log.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/track.hpp"
+#include "tracking/camera/focal_length.hpp"
 
 namespace catchlight::app {
 
@@ -20,6 +21,7 @@ struct SolvedShot {
   bool is_whole = true;                    ///< no frame of the footage was left out, beyond the range either
   std::optional<std::string> damage;       ///< a text on the damage that ended the footage early
   std::optional<std::string> never_found;  ///< what to say where the tag is in none of the frames, those beyond the range too
+  std::optional<tracking::FocalEstimate> focal_length;  ///< what the tag's views say of it
 };
 
 /// Tracks from the source's first frame to a second after the range's end, so that poses hardly depend on the range. Frames are

@@ -285,4 +285,8 @@ CameraModel camera_from_field_of_view(int width_px, int height_px, double horizo
   return camera;
 }
 
+double horizontal_fov_deg(const CameraModel& camera) {
+  return 2 * glm::degrees(std::atan(camera.width_px / (2 * camera.fx_px)));
+}
+
 }  // namespace catchlight::tracking

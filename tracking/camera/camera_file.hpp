@@ -24,4 +24,7 @@ CameraModel read_camera_file_for(const std::string& path, const std::string& pic
 /// A guess for footage of an unknown camera: principal point in the middle, square pixels, no distortion.
 CameraModel camera_from_field_of_view(int width_px, int height_px, double horizontal_fov_deg);
 
+/// The inverse: from edge to edge of the picture.
+double horizontal_fov_deg(const CameraModel& camera);
+
 }  // namespace catchlight::tracking

@@ -97,6 +97,12 @@ std::string camera_text(const Calibration& calibration, const std::string& path)
   return file.releaseAndGetString();
 }
 
+std::string camera_text(const CameraModel& camera, const std::string& path) {
+  cv::FileStorage file = memory_file(path);
+  write_camera(file, camera);
+  return file.releaseAndGetString();
+}
+
 std::string calibration_text(const Calibration& calibration) {
   std::string text = "  frame  points  error px  tilt deg\n";
   for (const ViewFit& fit : calibration.views)

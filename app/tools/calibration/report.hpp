@@ -15,6 +15,9 @@ void check_camera_format(const std::string& path);
 /// OpenCV FileStorage, as tracking::read_camera_file() and OpenCV's own tools read it: YAML, or JSON or XML where `path` ends so.
 std::string camera_text(const Calibration& calibration, const std::string& path);
 
+/// The same of a camera that was not calibrated with a board.
+std::string camera_text(const CameraModel& camera, const std::string& path);
+
 /// A line for each frame with its error and the board's tilt, then the camera's parameters with their standard deviations.
 std::string calibration_text(const Calibration& calibration);
 

@@ -221,6 +221,35 @@ TEST(Calibrate, PicturesAreNamedOneByOneOrByAGlobAndTheFileMayBeJson) {
   EXPECT_EQ(read_text(out.path("globbed.json")), read_text(out.path("listed.json")));
 }
 
+TEST(Calibrate, AFirstCameraComesFromTheShotsOwnTag) {
+  Footage footage;
+  for (const Placement& place : good_places()) footage.add(tag_board_frame(place));
+  const TemporaryFolder out;
+  const CommandResult result = calibrate(footage.pattern(), out.path("camera.json"), {"--from-tag", "10"});
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  EXPECT_THAT(result.error, HasSubstr("tag 10 of tag36h11 seen in 10 of 10 frames tried"));
+  expect_within_stated(result.output, "focal length    ", 520, 0.05 * 520);
+  const CameraModel camera = tracking::read_camera_file(out.path("camera.json"));
+  EXPECT_EQ(camera.cx_px, 319.5);
+  EXPECT_EQ(camera.fx_px, camera.fy_px);
+  EXPECT_FALSE(camera.has_distortion());
+}
+
+TEST(CalibrateRefuses, ATagThatDoesNotTellTheFocalLength) {
+  Footage frontal;
+  for (int i = 0; i < 6; ++i) frontal.add(tag_board_frame({{250.0 + 20 * i, 240}, 0.35 + 0.03 * i, {0, 0, 10.0 * i}}));
+  const TemporaryFolder out;
+  const CommandResult result = calibrate(frontal.pattern(), out.path("camera.yaml"), {"--from-tag", "10"});
+  EXPECT_EQ(result.exit_code, kFailure);
+  EXPECT_THAT(result.error, AllOf(HasSubstr("stays frontal or hardly moves"), HasSubstr("calibrate with a board")));
+  const CommandResult absent = calibrate(frontal.pattern(), out.path("camera.yaml"), {"--from-tag", "100"});
+  EXPECT_THAT(absent.error, HasSubstr("tag 100 of tag36h11 was found in none of 6 frames"));
+  const CommandResult both = calibrate(frontal.pattern(), out.path("camera.yaml"), {"--from-tag", "10", "--tags", "4x3"});
+  EXPECT_EQ(both.exit_code, kUsage);
+  EXPECT_THAT(both.error, HasSubstr("--from-tag takes the tag's id"));
+  EXPECT_THAT(out.names(), ElementsAre());
+}
+
 // --- refusals -------------------------------------------------------------------------------------------------------------
 
 TEST(CalibrateRefuses, FootageWithoutTheBoard) {
