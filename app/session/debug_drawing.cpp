@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "app/support/lettering.hpp"
 #include "catchlight/pixel_rect.hpp"
 #include "catchlight/plate.hpp"
 #include "catchlight/projection.hpp"
@@ -17,7 +18,6 @@ namespace {
 
 const cv::Scalar kBlack(0, 0, 0), kWhite(255, 255, 255), kMagenta(255, 0, 255), kRed(255, 0, 0), kGreen(0, 255, 0),
     kBlue(0, 0, 255), kLightGreen(140, 255, 140), kOrange(255, 180, 60), kLightRed(255, 150, 150);
-constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
 constexpr int kFractionBits = 8;  // bits of fraction in the coordinates that OpenCV draws lines between
 
 struct Stroke {
@@ -35,7 +35,7 @@ struct Label {
 struct Sketch {
   double unit_px;  ///< 1 in a picture of 480 lines
   std::vector<Stroke> strokes;
-  double font_scale = 0;
+  double capital_px = 0;
   std::vector<Label> labels;
 
   int stroke_px() const { return std::max(1, static_cast<int>(std::lround(1.25 * unit_px))); }
@@ -102,16 +102,16 @@ void add_labels(Sketch& sketch, const TrackRow& row, int width_px) {
     sketch.labels.push_back({text, kWhite, {}});
   }
   const int margin_px = static_cast<int>(std::lround(10 * sketch.unit_px));
-  sketch.font_scale = std::max(0.55 * sketch.unit_px, 0.4);  // smaller letters cannot be read
+  sketch.capital_px = std::max(11.5 * sketch.unit_px, 8.5);  // smaller letters cannot be read
   int widest_px = 1;
   for (const Label& label : sketch.labels)
-    widest_px = std::max(widest_px, cv::getTextSize(label.text, kFont, sketch.font_scale, 1, nullptr).width);
-  sketch.font_scale *= std::min(1.0, static_cast<double>(width_px - 2 * margin_px) / widest_px);
+    widest_px = std::max(widest_px, cvRound(sketch.capital_px * lettering_width(label.text)));
+  sketch.capital_px *= std::min(1.0, static_cast<double>(width_px - 2 * margin_px) / widest_px);
   int y_px = margin_px;
   for (Label& label : sketch.labels) {
-    y_px += static_cast<int>(std::lround(22 * sketch.font_scale));  // capitals are 21 or 22 px high at scale 1
+    y_px += static_cast<int>(std::lround(sketch.capital_px));
     label.baseline_px = {margin_px, y_px};
-    y_px += static_cast<int>(std::lround(16 * sketch.font_scale));
+    y_px += static_cast<int>(std::lround(0.75 * sketch.capital_px));
   }
 }
 
@@ -126,10 +126,9 @@ PixelRect bounds_of(const Sketch& sketch, const Frame& frame) {
   for (const Stroke& stroke : sketch.strokes)
     for (const glm::dvec2& px : stroke.points_px) add(px);
   for (const Label& label : sketch.labels) {
-    int descent_px = 0;
-    const cv::Size size = cv::getTextSize(label.text, kFont, sketch.font_scale, sketch.stroke_px(), &descent_px);
-    add({label.baseline_px.x, label.baseline_px.y - size.height});
-    add({label.baseline_px.x + size.width, label.baseline_px.y + descent_px});
+    add({label.baseline_px.x, label.baseline_px.y - sketch.capital_px});
+    add({label.baseline_px.x + sketch.capital_px * lettering_width(label.text),
+         label.baseline_px.y + sketch.capital_px * kLetteringDescent});
   }
   return intersect(bounds, {0, 0, frame.width_px(), frame.height_px()});
 }
@@ -147,8 +146,8 @@ void draw(const Sketch& sketch, cv::Mat& canvas, const cv::Point& origin_px) {
         cv::line(canvas, fixed_point(stroke.points_px[i - 1]), fixed_point(stroke.points_px[i]), halo ? kBlack : stroke.color,
                  thickness, cv::LINE_AA, kFractionBits);
     for (const Label& label : sketch.labels)
-      cv::putText(canvas, label.text, label.baseline_px - origin_px, kFont, sketch.font_scale, halo ? kBlack : label.color,
-                  thickness, cv::LINE_AA);
+      write_text(canvas, label.text, {label.baseline_px.x - origin_px.x, label.baseline_px.y - origin_px.y}, sketch.capital_px,
+                 halo ? kBlack : label.color, thickness);
   }
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "app/support/lettering.hpp"
 #include "app/tools/calibration/report.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/util/text.hpp"
@@ -14,8 +15,8 @@ constexpr double kTypicalArrowPx = 14;  ///< length of a residual as large as th
 const cv::Scalar kPaper(255, 255, 255), kGrid(225, 225, 225), kInk(60, 60, 60), kPoint(190, 150, 90), kResidual(30, 30, 220),
     kBar(190, 150, 90), kRejected(60, 60, 220);
 
-void write(cv::Mat& picture, const std::string& text, const cv::Point& origin, double scale = 0.5) {
-  cv::putText(picture, text, origin, cv::FONT_HERSHEY_SIMPLEX, scale, kInk, 1, cv::LINE_AA);
+void write(cv::Mat& picture, const std::string& text, const glm::dvec2& baseline_px, double capital_px = 10) {
+  write_text(picture, text, baseline_px, capital_px, kInk);
 }
 
 /// One, two or five times a power of ten.
@@ -74,7 +75,7 @@ cv::Mat error_bars(const Calibration& calibration) {
               width = std::max(1, static_cast<int>(pitch * 0.7));
     const int top = bottom - static_cast<int>(height * std::min(1.0, bars[i].rms_px / largest_px));
     cv::rectangle(picture, {left, top}, {left + width, bottom}, bars[i].is_rejected ? kRejected : kBar, cv::FILLED);
-    write(picture, std::to_string(bars[i].frame), {left, bottom + 14}, 0.35);
+    write(picture, std::to_string(bars[i].frame), {left, bottom + 14}, 7);
   }
   const int mean_y = bottom - static_cast<int>(height * std::min(1.0, calibration.rms_px / largest_px));
   cv::line(picture, {kMarginPx, mean_y}, {kWidthPx - kMarginPx, mean_y}, kInk);

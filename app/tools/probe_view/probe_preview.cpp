@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "app/support/lettering.hpp"
 #include "app/tools/probe_view/probe_statistics.hpp"
 #include "catchlight/color.hpp"
 #include "catchlight/util/parallel.hpp"
@@ -14,7 +15,7 @@ namespace catchlight::app {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kCaptionPx = 30;
+constexpr int kCaptionPx = 30, kCapitalPx = 10;
 const cv::Scalar kInk(255, 255, 255), kShade(0, 0, 0), kMark(60, 200, 255), kPaper(40, 40, 40);
 
 class Painter {
@@ -86,7 +87,7 @@ cv::Mat painted(const Painter& painter, const cv::Size& size, const Light& light
 
 void write(cv::Mat& picture, const std::string& text, const cv::Point& at, const cv::Scalar& color = kInk) {
   for (const auto& [ink, thickness] : {std::pair(kShade, 3), std::pair(color, 1)})
-    cv::putText(picture, text, at, cv::FONT_HERSHEY_SIMPLEX, 0.5, ink, thickness, cv::LINE_AA);
+    write_text(picture, text, {at.x, at.y}, kCapitalPx, ink, thickness);
 }
 
 /// A small cross with its text, kept inside the picture.
@@ -97,7 +98,7 @@ void mark(cv::Mat& picture, const glm::dvec2& at, const std::string& text, const
     cv::line(picture, centre - cv::Point(kArmPx, 0), centre + cv::Point(kArmPx, 0), ink, thickness, cv::LINE_AA);
     cv::line(picture, centre - cv::Point(0, kArmPx), centre + cv::Point(0, kArmPx), ink, thickness, cv::LINE_AA);
   }
-  const int width = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, 0.5, 1, nullptr).width;
+  const int width = cvRound(kCapitalPx * lettering_width(text));
   const int x = std::clamp(centre.x - width / 2, 3, std::max(3, picture.cols - width - 3));
   const int y = centre.y + 2 * kTextPx + kArmPx < picture.rows ? centre.y + kTextPx + 2 * kArmPx : centre.y - kTextPx;
   write(picture, text, {x, y}, color);

@@ -7,6 +7,7 @@ namespace catchlight::app {
 namespace {
 
 constexpr double kPointsPerMm = 72 / 25.4;
+constexpr double kCapitalsOfHelvetica = 0.72;  ///< share of the font's size
 
 /// A length as text, to 10 nm.
 std::string fixed(double value) {
@@ -32,7 +33,14 @@ std::string page_content(const Page& page) {
           fixed(r.x) + ' ' + fixed(page.height_mm - r.y - r.height) + ' ' + fixed(r.width) + ' ' + fixed(r.height) + " re\n";
     content += "f\n";
   }
-  content += "BT\n/F1 " + fixed(kTextHeightMm) + " Tf\n";
+  content += fixed(kPenMm) + " w 1 J 1 j\n";
+  for (const PenLine& line : pen_lines(page)) {
+    for (std::size_t i = 0; i < line.size(); ++i)
+      content += fixed(line[i].x) + ' ' + fixed(page.height_mm - line[i].y) + (i == 0 ? " m\n" : " l\n");
+    content += "S\n";
+  }
+  // What the pen has written once more as text that is not seen, for those who search or copy.
+  content += "BT\n3 Tr\n/F1 " + fixed(kCapitalMm / kCapitalsOfHelvetica) + " Tf\n";
   for (const TextMm& text : page.texts)
     content +=
         "1 0 0 1 " + fixed(text.x) + ' ' + fixed(page.height_mm - text.baseline_y) + " Tm (" + escaped(text.text) + ") Tj\n";

@@ -35,14 +35,18 @@ std::string phys_chunk(int pixels_per_m) {
   return big_endian(static_cast<std::uint32_t>(body.size() - 4)) + body + big_endian(crc32(body));
 }
 
-void draw_text(cv::Mat1b& image, const TextMm& text, double pixels_per_mm) {
-  const double height_px = kTextHeightMm * pixels_per_mm;
-  const double capital_height = 0.72;  // share of Helvetica's size; Hershey's capitals are 21 px at scale 1
-  const double scale = capital_height * height_px / 21;
-  const int thickness = std::max(1, static_cast<int>(std::lround(height_px / 12)));
-  const cv::Point origin(static_cast<int>(std::lround(text.x * pixels_per_mm)),
-                         static_cast<int>(std::lround(text.baseline_y * pixels_per_mm)));
-  cv::putText(image, text.text, origin, cv::FONT_HERSHEY_SIMPLEX, scale, cv::Scalar(0), thickness, cv::LINE_AA);
+void draw_lines(cv::Mat1b& image, const std::vector<PenLine>& lines, double pixels_per_mm) {
+  constexpr int kShift = 4;  // sixteenths of a pixel
+  std::vector<std::vector<cv::Point>> points;
+  for (const PenLine& line : lines) {
+    points.emplace_back();
+    for (const glm::dvec2& point : line) {
+      const glm::dvec2 px = 16.0 * (point * pixels_per_mm - 0.5);
+      points.back().emplace_back(cvRound(px.x), cvRound(px.y));
+    }
+  }
+  const int thickness_px = std::max(1, static_cast<int>(std::lround(kPenMm * pixels_per_mm)));
+  cv::polylines(image, points, false, cv::Scalar(0), thickness_px, cv::LINE_AA, kShift);
 }
 
 }  // namespace
@@ -61,7 +65,7 @@ std::string png_bytes(const Page& page, int pixels_per_m) {
       const cv::Point from(pixels(r.x), pixels(r.y)), to(pixels(r.x + r.width), pixels(r.y + r.height));
       image(cv::Rect(from.x, from.y, std::max(1, to.x - from.x), std::max(1, to.y - from.y))) = 0;
     }
-  for (const TextMm& text : page.texts) draw_text(image, text, pixels_per_mm);
+  draw_lines(image, pen_lines(page), pixels_per_mm);
 
   const std::vector<std::uint8_t> encoded = render::encode_png(image);
   std::string bytes(encoded.begin(), encoded.end());

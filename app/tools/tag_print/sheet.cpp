@@ -16,7 +16,9 @@ constexpr double kMarginMm = 5;  ///< what most printers cannot reach
 constexpr double kLineMm = 4;    ///< from baseline to baseline
 constexpr double kLongestRulerMm = 100;
 constexpr double kFooterWidthMm = 60;  ///< the longest line of text; a ruler of 60 mm
+constexpr double kArrowMm = 5.5;
 constexpr double kTickWidthMm = 0.15;
+constexpr double kRulerGapMm = 0.8;                  ///< between ticks and numbers
 constexpr std::array kTickHeightsMm{1.5, 2.5, 4.0};  ///< every 1, 5 and 10 mm
 constexpr double kRulerMm = 9;                       ///< height with its numbers and the gap above
 constexpr double kFooterMm = kRulerMm + 3 * kLineMm;
@@ -60,10 +62,38 @@ std::string what_would_fit(const TagGrid& grid, const SizeMm& room) {
   return "a single tag fits up to --size-m " + plain_text(largest_m);
 }
 
+/// The tag's axes as it is read, with the light probe's directions for a tag that lies flat (docs/conventions.md).
+const std::string kUpLabel = "up +y (flat: probe -z)", kRightLabel = "+x (probe +x)";
+
+std::vector<std::string> footer_lines(const TagGrid& grid, int ruler_mm) {
+  std::string what = grid.family, sizes = "size_m = " + metres_text(grid.size_m);
+  if (grid.count() == 1) {
+    what += ", id " + std::to_string(grid.first_id);
+  } else {
+    what += ", ids " + std::to_string(grid.first_id) + " to " + std::to_string(grid.last_id()) + ", " +
+            std::to_string(grid.columns) + "x" + std::to_string(grid.rows);
+    sizes += ", spacing_m = " + metres_text(grid.spacing_m);
+  }
+  return {what, sizes, "print at 100 %; the ruler is " + std::to_string(ruler_mm) + " mm long"};
+}
+
+constexpr double kBeforeAxesMm = 4;
+
+/// From the footer's left to the axes: behind the two lines beside them.
+double axes_left_mm(const std::vector<std::string>& lines) {
+  return kCapitalMm * std::max(lettering_width(lines[0]), lettering_width(lines[1])) + kBeforeAxesMm;
+}
+
+double footer_width_mm(const TagGrid& grid) {
+  const double axes_mm =
+      std::max(lettering_width(kUpLabel) * kCapitalMm, kArrowMm + lettering_width(kRightLabel) * kCapitalMm) + 1.5;
+  return std::max(kFooterWidthMm, axes_left_mm(footer_lines(grid, 0)) + axes_mm);
+}
+
 SizeMm page_for(const TagGrid& grid, const std::string& paper) {
   const SizeMm content = grid_size(grid);
   if (paper == "fit")
-    return {std::max(content.width, kFooterWidthMm) + 2 * kMarginMm, content.height + 2 * kMarginMm + kFooterMm};
+    return {std::max(content.width, footer_width_mm(grid)) + 2 * kMarginMm, content.height + 2 * kMarginMm + kFooterMm};
   const auto found = std::find_if(papers().begin(), papers().end(), [&](const auto& known) { return known.first == paper; });
   if (found == papers().end()) throw UsageError("--paper is \"" + paper + "\"; expected " + quoted_list(paper_names()));
   const SizeMm upright = found->second, lengthwise{upright.height, upright.width};
@@ -97,26 +127,36 @@ void add_ruler(Page& page, double left_mm, double top_mm, int length_mm) {
     ticks.push_back({left_mm + mm - kTickWidthMm / 2, top_mm, kTickWidthMm, kTickHeightsMm[kind]});
     if (kind != 2) continue;
     const std::string number = std::to_string(mm);
-    constexpr double kDigitMm = 0.556 * kTextHeightMm;  // Helvetica's digits
     page.texts.push_back(
-        {left_mm + mm - kDigitMm * static_cast<double>(number.size()) / 2, top_mm + kTickHeightsMm[2] + kTextHeightMm, number});
+        {left_mm + mm - kCapitalMm * lettering_width(number) / 2, top_mm + kTickHeightsMm[2] + kRulerGapMm + kCapitalMm, number});
   }
   page.shapes.push_back(ticks);
 }
 
-std::vector<std::string> footer_lines(const TagGrid& grid, int ruler_mm) {
-  std::string what = grid.family, sizes = "size_m = " + metres_text(grid.size_m);
-  if (grid.count() == 1) {
-    what += ", id " + std::to_string(grid.first_id);
-  } else {
-    what += ", ids " + std::to_string(grid.first_id) + " to " + std::to_string(grid.last_id()) + ", " +
-            std::to_string(grid.columns) + "x" + std::to_string(grid.rows);
-    sizes += ", spacing_m = " + metres_text(grid.spacing_m);
+void add_axes(Page& page, double left_mm, double baseline_mm) {
+  constexpr double kHeadMm = 1.2, kLabelGapMm = 1.5;
+  const glm::dvec2 origin(left_mm, baseline_mm);
+  for (const glm::dvec2& along : {glm::dvec2(0, -1), glm::dvec2(1, 0)}) {
+    const glm::dvec2 tip = origin + kArrowMm * along, back = tip - kHeadMm * along,
+                     aside = 0.6 * kHeadMm * glm::dvec2(along.y, along.x);
+    page.lines.push_back({origin, tip});
+    page.lines.push_back({back + aside, tip, back - aside});
   }
-  return {what, sizes, "print at 100 %; the ruler is " + std::to_string(ruler_mm) + " mm long"};
+  page.texts.push_back({left_mm + kLabelGapMm, baseline_mm - kArrowMm + kCapitalMm, kUpLabel});
+  page.texts.push_back({left_mm + kArrowMm + kLabelGapMm, baseline_mm + kCapitalMm / 2, kRightLabel});
 }
 
 }  // namespace
+
+std::vector<PenLine> pen_lines(const Page& page) {
+  std::vector<PenLine> lines = page.lines;
+  for (const TextMm& text : page.texts)
+    for (PenLine& line : lettering(text.text)) {
+      for (glm::dvec2& point : line) point = glm::dvec2(text.x, text.baseline_y) + kCapitalMm * point;
+      lines.push_back(std::move(line));
+    }
+  return lines;
+}
 
 std::vector<std::string> paper_names() {
   std::vector<std::string> names;
@@ -144,8 +184,9 @@ Page lay_out(const TagGrid& grid, const std::string& paper, double pixel_mm) {
   const double footer_left_mm = (size.width - ruler_mm) / 2, footer_top_mm = size.height - kMarginMm - kFooterMm;
   add_ruler(page, footer_left_mm, footer_top_mm + 2, ruler_mm);
   double baseline_mm = footer_top_mm + kRulerMm;
-  for (const std::string& line : footer_lines(grid, ruler_mm))
-    page.texts.push_back({footer_left_mm, baseline_mm += kLineMm, line});
+  const std::vector<std::string> lines = footer_lines(grid, ruler_mm);
+  for (const std::string& line : lines) page.texts.push_back({footer_left_mm, baseline_mm += kLineMm, line});
+  add_axes(page, footer_left_mm + axes_left_mm(lines), footer_top_mm + kRulerMm + 2 * kLineMm - kCapitalMm / 4);
   return page;
 }
 

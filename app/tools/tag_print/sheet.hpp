@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/support/lettering.hpp"
 #include "app/tools/tag_print/tag_grid.hpp"
 
 namespace catchlight::app {
@@ -20,13 +21,18 @@ struct TextMm {
   std::string text;
 };
 
-constexpr double kTextHeightMm = 2.8;  ///< font size
+constexpr double kCapitalMm = 2;  ///< height of capitals
+constexpr double kPenMm = 0.25;
 
 struct Page {
   double width_mm = 0, height_mm = 0;
   std::vector<ShapeMm> shapes;
   std::vector<TextMm> texts;
+  std::vector<PenLine> lines = {};  ///< drawn by a pen of kPenMm
 };
+
+/// All that the pen draws: the page's lines and its lettering.
+std::vector<PenLine> pen_lines(const Page& page);
 
 struct Paper {
   std::string name;  ///< "a4", "a3", "letter", or "fit": as large as what is on it

@@ -29,10 +29,15 @@ std::string svg_text(const Page& page) {
       text += 'M' + fixed(r.x) + ',' + fixed(r.y) + 'h' + fixed(r.width) + 'v' + fixed(r.height) + 'h' + fixed(-r.width) + "z\n";
     text += "\"/>\n";
   }
-  text += "<g font-family=\"Helvetica, Arial, sans-serif\" font-size=\"" + fixed(kTextHeightMm) + "\">\n";
-  for (const TextMm& line : page.texts)
-    text += "<text x=\"" + fixed(line.x) + "\" y=\"" + fixed(line.baseline_y) + "\">" + escaped(line.text) + "</text>\n";
-  return text + "</g>\n</svg>\n";
+  text += "<path fill=\"none\" stroke=\"black\" stroke-linecap=\"round\" stroke-linejoin=\"round\" stroke-width=\"" +
+          fixed(kPenMm) + "\" d=\"";
+  for (const PenLine& line : pen_lines(page)) {
+    for (std::size_t i = 0; i < line.size(); ++i) text += (i == 0 ? 'M' : 'L') + fixed(line[i].x) + ',' + fixed(line[i].y);
+    text += '\n';
+  }
+  text += "\"/>\n<desc>";
+  for (const TextMm& line : page.texts) text += escaped(line.text) + '\n';
+  return text + "</desc>\n</svg>\n";
 }
 
 }  // namespace catchlight::app

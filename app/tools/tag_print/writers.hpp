@@ -8,8 +8,8 @@
 
 namespace catchlight::app {
 
-/// PDF 1.4 (ISO 32000-1), one page for each of `pages`: a path for every shape, Helvetica, and a wish not to be scaled by print
-/// dialogues.
+/// PDF 1.4 (ISO 32000-1), one page for each of `pages`: a path for every shape and line of the pen, text to search, and a wish
+/// not to be scaled by print dialogues.
 std::string pdf_text(const std::vector<Page>& pages);
 
 /// SVG 1.1 whose user unit is 1 mm.

@@ -270,6 +270,66 @@ TEST(TagPdf, WhatFitsOnlyLengthwiseTurnsThePage) {
   EXPECT_NEAR(page.height_mm, 210, 1e-4);
 }
 
+// --- the mark and the lettering -------------------------------------------------------------------------------------------
+
+TEST(TagSheet, AnArrowShowsUpAndTheProbesDirectionsWithinThePaper) {
+  for (const auto& [grid, paper] : {std::pair(single("tag36h11", 0, 0.02), "fit"),
+                                    {single("tag36h11", 586, 0.08), "a4"},
+                                    {board_of_12(), "fit"},
+                                    {board_of_12(), "a3"}}) {
+    const Page page = lay_out(grid, paper);
+    ASSERT_EQ(page.lines.size(), 4u);
+    const glm::dvec2 up = page.lines[0].back() - page.lines[0].front(), right = page.lines[2].back() - page.lines[2].front();
+    EXPECT_GT(-up.y, 5);  // y is down
+    EXPECT_EQ(up.x, 0);
+    EXPECT_GT(right.x, 5);
+    EXPECT_EQ(right.y, 0);
+    for (const char* text : {"up +y (flat: probe -z)", "+x (probe +x)"})
+      EXPECT_EQ(std::ranges::count_if(page.texts, [&](const TextMm& label) { return label.text == text; }), 1) << text;
+    for (const PenLine& line : pen_lines(page))
+      for (const glm::dvec2& point : line) {
+        EXPECT_GE(point.x, 3);  // numbers stand on both sides of the ruler's ticks
+        EXPECT_LE(point.x, page.width_mm - 3);
+      }
+    // Lettering stands before the mark, or beside its arrows.
+    const PenLine& arrow = page.lines[0];
+    for (const TextMm& text : page.texts) {
+      const bool is_beside = text.baseline_y > arrow.back().y && text.baseline_y <= arrow.front().y + kCapitalMm;
+      if (is_beside && text.x < arrow.front().x && !text.text.starts_with("print")) {
+        EXPECT_LT(text.x + kCapitalMm * lettering_width(text.text), arrow.front().x) << text.text;
+      }
+    }
+  }
+}
+
+/// Where the lines of the pen begin, in a text that holds each as `x y` behind or before a letter.
+std::vector<glm::dvec2> beginnings(const std::string& text, const std::regex& pattern) {
+  std::vector<glm::dvec2> points;
+  for (std::sregex_iterator match(text.begin(), text.end(), pattern), end; match != end; ++match)
+    points.emplace_back(std::stod((*match)[1]), std::stod((*match)[2]));
+  return points;
+}
+
+TEST(TagSheet, LetteringIsTheSameInEveryFormat) {
+  const Page page = lay_out(single("tag36h11", 3, 0.05), "a4");
+  const std::vector<PenLine> lines = pen_lines(page);
+  const auto pdf = beginnings(read_pdf(pdf_text({page})).at(0).content, std::regex("([0-9.]+) ([0-9.]+) m\n"));
+  const std::string svg = svg_text(page);
+  const auto drawn_svg = beginnings(svg.substr(svg.find("stroke-width")), std::regex("M([0-9.]+),([0-9.]+)L"));
+  constexpr int kPixelsPerMm = 20;
+  const cv::Mat1b png = decoded(png_bytes(page, 1000 * kPixelsPerMm));
+  ASSERT_EQ(pdf.size(), lines.size());
+  ASSERT_EQ(drawn_svg.size(), lines.size());
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const glm::dvec2 begin = lines[i].front();
+    EXPECT_NEAR(pdf[i].x, begin.x, 1e-5);
+    EXPECT_NEAR(page.height_mm - pdf[i].y, begin.y, 1e-5);
+    EXPECT_NEAR(drawn_svg[i].x, begin.x, 1e-5);
+    EXPECT_NEAR(drawn_svg[i].y, begin.y, 1e-5);
+    EXPECT_LT(png(static_cast<int>(begin.y * kPixelsPerMm), static_cast<int>(begin.x * kPixelsPerMm)), 128);
+  }
+}
+
 // --- SVG ------------------------------------------------------------------------------------------------------------------
 
 TEST(TagSvg, UserUnitIsTheMillimetre) {
