@@ -11,6 +11,7 @@ using namespace catchlight::app;
 
 constexpr Command kCommands[] = {
     {"overlay", "Put the virtual objects into footage", set_up_overlay},
+    {"tune", "Turn everything by hand in a window on the footage", set_up_tune},
     {"track", "Find the tag and its exposure in footage; no drawing", set_up_track},
     {"replay", "Overlay recordings and say what drifted from the truth, or from a run that was kept", set_up_replay},
     {"reference", "Path trace one frame with the object in it, to compare an overlay with", set_up_reference},

@@ -43,6 +43,26 @@ RawVector<float> linear_of(const Plate& plate, const PlateColor& color) {
 
 }  // namespace
 
+std::vector<unsigned char> codes_8_bit(const Plate& plate) {
+  std::vector<unsigned char> codes(3 * static_cast<std::size_t>(plate.rect.width) * plate.rect.height);
+  const auto convert = [&](const auto* from, float to_code) {
+    for (std::size_t i = 0; i < codes.size(); ++i)
+      codes[i] = static_cast<unsigned char>(glm::clamp(static_cast<float>(from[i]) * to_code, 0.0f, 255.0f) + 0.5f);
+  };
+  switch (plate.format) {
+    case Plate::Format::rgb_u8:
+      std::memcpy(codes.data(), plate.pixels.data(), codes.size());
+      break;
+    case Plate::Format::rgb_u16:
+      convert(reinterpret_cast<const std::uint16_t*>(plate.pixels.data()), 1.0f / 257);
+      break;
+    case Plate::Format::rgb_f32:
+      convert(reinterpret_cast<const float*>(plate.pixels.data()), 255);
+      break;
+  }
+  return codes;
+}
+
 RawVector<float> linear_rgb(const Plate& plate, const PlateColor& color) {
   RawVector<float> linear = linear_of(plate, color);
   if (color.plate_from_rec709 != glm::mat3(1.0f)) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "catchlight/pixel_rect.hpp"
 #include "catchlight/response.hpp"
@@ -27,6 +28,9 @@ using PlateReader = std::function<Plate(const PixelRect&)>;
 struct PlateColor : CameraResponse {
   glm::mat3 plate_from_rec709{1.0f};  ///< linear
 };
+
+/// The plate's codes as bytes, row-major; what is beyond 0 and 1 is cut off.
+std::vector<unsigned char> codes_8_bit(const Plate& plate);
 
 /// The plate's light as RGB triples, row-major, Rec. 709 primaries; 1 = sensor white.
 RawVector<float> linear_rgb(const Plate& plate, const PlateColor& color);

@@ -37,6 +37,7 @@ void set_up_probe(CLI::App& command, Context& context);
 void set_up_reference(CLI::App& command, Context& context);
 void set_up_replay(CLI::App& command, Context& context);
 void set_up_tag(CLI::App& command, Context& context);
+void set_up_tune(CLI::App& command, Context& context);
 void set_up_track(CLI::App& command, Context& context);
 
 /// Whether a command makes use of the parameter of that key. All are taken, so that one set of options fits all commands; what

@@ -95,14 +95,15 @@ void Session::note_scale() {
 
 std::optional<FrameJob> Session::decode() {
   opened_track();
-  if (!progress_) progress_.emplace(log_, options_.task, frames_in_range(footage_->info(), options_.range));
+  if (!progress_ && !options_.is_revisited)
+    progress_.emplace(log_, options_.task, frames_in_range(footage_->info(), options_.range));
   try {
     std::optional<Frame> frame = measure("decode", [&] { return next_frame(); });
     if (frame && frame->number() < options_.range.end) {
       ++pass_.decoded;
       const bool is_before_range = frame->number() < options_.range.begin;
       if (!is_before_range) ++pass_.in_range;
-      progress_->update(pass_.in_range, live_state());
+      if (progress_) progress_->update(pass_.in_range, live_state());
       return FrameJob{.image = std::move(*frame), .is_before_range = is_before_range};
     }
   } catch (const DamagedMedia& damaged) {
@@ -112,6 +113,11 @@ std::optional<FrameJob> Session::decode() {
   if (pass_.in_range == 0 && pass_.damage) throw DamagedMedia(*pass_.damage);
   if (pass_.in_range == 0) refuse_range(recording_.footage, options_.range, pass_.decoded, footage_->info().first_number);
   return std::nullopt;
+}
+
+void Session::seek(std::int64_t position) {
+  opened_track();
+  footage_->seek(position);
 }
 
 std::optional<Frame> Session::next_frame() {

@@ -32,6 +32,7 @@ struct SessionOptions {
   bool wants_layers = false;    ///< draw layers for compositing packages
   bool wants_frames = false;    ///< render() may write into job.image what else job.result holds
   bool allows_lost = true;      ///< footage in which the tag is never found is not refused, nor a failure
+  bool is_revisited = false;    ///< seek() is wanted: frames stay in memory, as far as they fit
   bool keeps_track = false;     ///< track_rows() is wanted: they grow with the footage
   std::int64_t kept_bytes = kept_frames_budget();  ///< of frames that are kept from tracking, so that they are decoded once
 };
@@ -54,6 +55,10 @@ class Session {
   /// The next frame; none at the end of the range or of the footage, or where the footage is damaged.
   /// Throws where not one frame lies in the range.
   std::optional<FrameJob> decode();
+
+  /// decode() goes on at that position among the footage's frames, from 0; where that is beyond the end, there is none. Of
+  /// recorded footage, where options.is_revisited. An exposure that adapts goes on from what was drawn before.
+  void seek(std::int64_t position);
   void track(FrameJob& job);
   void view(FrameJob& job) { renderer_.view(job); }
 

@@ -1,8 +1,10 @@
 // Messages to the user: always stderr, so that stdout stays free for data.
 #pragma once
 
+#include <functional>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "catchlight/error.hpp"
@@ -32,6 +34,11 @@ class Log {
   }
   const std::vector<std::string>& warnings() const { return warnings_; }
 
+  /// Hears of long tasks, also when quiet: what is done ("track", "bake"), and the share that is. Called on whichever thread does
+  /// it; what it throws ends the task.
+  using TaskHandler = std::function<void(const std::string& task, double share)>;
+  void set_task_handler(TaskHandler handler) { task_handler_ = std::move(handler); }
+
  private:
   friend class Progress;
   /// With the mutex held.
@@ -41,6 +48,7 @@ class Log {
   bool quiet_ = false, verbose_ = false;
   bool bar_shown_ = false;  ///< the cursor stands behind a progress bar
   std::vector<std::string> warnings_;
+  TaskHandler task_handler_;
 };
 
 }  // namespace catchlight::app

@@ -64,6 +64,8 @@ Progress::~Progress() {
 }
 
 void Progress::update(std::int64_t done, const std::string& state) {
+  if (log_.task_handler_ && total_ && *total_ > 0)
+    log_.task_handler_(label_, static_cast<double>(done) / static_cast<double>(*total_));
   if (log_.quiet()) return;
   if (done <= 0) start_ = Clock::now();
   std::string text = progress_text(label_, done, total_, unit_, seconds_since(start_));

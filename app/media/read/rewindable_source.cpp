@@ -37,7 +37,22 @@ void RewindableSource::keep(std::optional<std::int64_t> frame_count) {
   frame_count_ = frame_count;
 }
 
+void RewindableSource::seek(std::int64_t position) {
+  holds_frames_ = true;
+  if (kept_.has_all || position == position_) {
+    position_ = position;
+    return;
+  }
+  if (position < position_) rewind();
+  while (position_ < position && read()) continue;
+}
+
 std::optional<Frame> RewindableSource::read() {
+  if (holds_frames_ && kept_.has_all) {
+    if (position_ < 0 || position_ >= static_cast<std::int64_t>(frames_.size())) return std::nullopt;
+    return frames_[static_cast<std::size_t>(position_++)];
+  }
+  ++position_;
   if (!is_keeping_ && !frames_.empty()) {
     Frame frame = std::move(frames_.front());
     frames_.pop_front();
@@ -72,6 +87,7 @@ void RewindableSource::let_go() {
 
 void RewindableSource::rewind() {
   is_keeping_ = false;
+  position_ = 0;
   if (kept_.has_all) return;
   damage_.reset();
   source_.reset();  // a decoder holds frames: one at a time

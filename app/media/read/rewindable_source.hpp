@@ -1,4 +1,4 @@
-// Footage that is read a second time from its beginning.
+// Footage that is read again, from its beginning or from any frame.
 #pragma once
 
 #include <deque>
@@ -32,6 +32,10 @@ class RewindableSource final : public MediaSource {
   /// The next frame is the first that was read after keep(); damage that was met is met again.
   void rewind();
 
+  /// After rewind(): the next frame is the one at that position, from 0; nothing where the footage ends before. Once called, kept
+  /// frames stay: a frame may be looked at again and again. Where not all were kept, frames before it are decoded anew.
+  void seek(std::int64_t position);
+
   /// What became of the frames between keep() and rewind().
   struct Kept {
     bool has_all = false;
@@ -51,6 +55,8 @@ class RewindableSource final : public MediaSource {
   bool is_keeping_ = false;
   std::optional<std::int64_t> frame_count_;
   std::deque<Frame> frames_;
+  bool holds_frames_ = false;  ///< they stay when they are read
+  std::int64_t position_ = 0;  ///< of the next frame, once frames are sought
   std::optional<std::string> damage_;
 };
 

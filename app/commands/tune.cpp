@@ -1,0 +1,74 @@
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include "app/commands/commands.hpp"
+#include "app/window/tune_window.hpp"
+#include "app/window/ui_script.hpp"
+#include "catchlight/error.hpp"
+
+namespace catchlight::app {
+namespace {
+
+struct Options {
+  std::string recording, screenshot, script, size = "1280x720";
+  RecordingOverrides overrides;
+  int frames = 0;
+  bool is_headless = false;
+};
+
+glm::ivec2 size_of(const std::string& text) {
+  glm::ivec2 size(0);
+  char end = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &size.x, &size.y, &end) != 2 || size.x < 320 || size.y < 200 || size.x > 8192 ||
+      size.y > 8192)
+    throw UsageError("--size " + text + ": expected WIDTHxHEIGHT in pixels, 320x200 to 8192x8192");
+  return size;
+}
+
+/// Frames until `--frames` have been drawn and everything asked for is shown, or until the script has ended.
+void run_without_person(const Options& options, TuneWindow& window, std::optional<UiScript>& script) {
+  for (int frame = 0; !window.is_done(); ++frame) {
+    if (script) script->before_frame(window);
+    window.frame();
+    const bool is_over = script ? script->is_done() : frame + 1 >= std::max(options.frames, 1);
+    if (is_over && window.is_idle()) return;
+    if (!window.is_idle()) std::this_thread::sleep_for(std::chrono::milliseconds(2));  // the player needs the cores
+  }
+}
+
+void tune(const Options& options) {
+  const glm::ivec2 size = size_of(options.size);
+  std::optional<UiScript> script;
+  if (!options.script.empty()) script.emplace(options.script, read_ui_script(options.script));
+  const bool is_headless = options.is_headless || options.frames > 0;
+  const std::unique_ptr<GuiSurface> surface = is_headless ? make_headless_surface(size) : make_window_surface(size, "Catchlight");
+  TuneWindow window(*surface, options.recording, options.overrides);
+  if (script || is_headless)
+    run_without_person(options, window, script);
+  else
+    while (!window.is_done()) window.frame();
+  if (options.screenshot.empty()) return;
+  window.screenshot(options.screenshot);
+  window.frame();
+}
+
+}  // namespace
+
+void set_up_tune(CLI::App& command, Context& context) {
+  const auto options = std::make_shared<Options>();
+  add_recording_options(command, context, options->recording, options->overrides);
+  command.get_option("RECORDING")->required(false);
+  add_renderer_options(command, options->overrides);
+  command.add_option("--size", options->size, "of the window, in pixels")->capture_default_str();
+  command.add_option("--ui-script", options->script, "do what the script says (docs/tuning.md), and end with it");
+  command.add_flag("--headless", options->is_headless, "draw the window into memory: no screen is needed");
+  command.add_option("--frames", options->frames, "without a screen: draw so many frames of the window, and end")
+      ->check(CLI::Range(0, 1'000'000));
+  command.add_option("--screenshot", options->screenshot, "write what the window shows in the end, PNG");
+  command.callback([options] { tune(*options); });
+}
+
+}  // namespace catchlight::app

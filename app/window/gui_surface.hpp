@@ -1,0 +1,50 @@
+// What the window is drawn on: a window of the desktop, or a picture in memory. Both give Dear ImGui its input.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "catchlight/image.hpp"
+
+namespace catchlight::app {
+
+/// A surface with a current OpenGL context and an ImGui context of its own; one lives at a time.
+class GuiSurface {
+ public:
+  virtual ~GuiSurface() = default;
+
+  /// Begins a frame of the window: what ImGui is asked to draw from here on is part of it.
+  virtual void begin_frame() = 0;
+  /// Draws it and shows it.
+  virtual void end_frame() = 0;
+
+  /// Whether the user closed the window. `keep_open` takes that back.
+  virtual bool is_closed() const = 0;
+  virtual void keep_open() = 0;
+
+  /// Files that were dropped on the window since the last call.
+  virtual std::vector<std::string> take_dropped_files() = 0;
+
+  virtual void set_title(const std::string& title) = 0;
+
+  /// How many pixels of the screen a unit of length is that the layout is made in.
+  virtual float scale() const = 0;
+
+  /// What the last frame showed: 8-bit RGB, rows from the top.
+  struct Picture {
+    int width = 0, height = 0;
+    std::vector<unsigned char> rgb;
+  };
+  virtual Picture picture() const = 0;
+};
+
+/// A picture in memory, on the context that EGL gives without a screen. Time goes on by a sixtieth of a second a frame, and input
+/// is what is written into ImGui's IO. Throws Error where there is no OpenGL.
+std::unique_ptr<GuiSurface> make_headless_surface(const glm::ivec2& size_px);
+
+/// A window. Throws Error that says what is missing where there is no screen.
+std::unique_ptr<GuiSurface> make_window_surface(const glm::ivec2& size_px, const std::string& title);
+
+}  // namespace catchlight::app

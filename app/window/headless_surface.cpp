@@ -1,0 +1,61 @@
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include "app/window/gui_keys.hpp"
+#include "app/window/gui_picture.hpp"
+#include "app/window/gui_style.hpp"
+#include "app/window/gui_surface.hpp"
+#include "render/gl/gl_context.hpp"
+
+namespace catchlight::app {
+namespace {
+
+class HeadlessSurface final : public GuiSurface {
+ public:
+  explicit HeadlessSurface(const glm::ivec2& size_px) : context_(render::make_headless_context()), size_px_(size_px) {
+    ImGui::CreateContext();
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr;
+    io.DisplaySize = {static_cast<float>(size_px.x), static_cast<float>(size_px.y)};
+    io.MousePos = {-1, -1};
+    set_key_map(io);
+    set_gui_style(1);
+    ImGui_ImplOpenGL3_Init("#version 450");
+  }
+  ~HeadlessSurface() override {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui::DestroyContext();
+  }
+  HeadlessSurface(const HeadlessSurface&) = delete;
+  HeadlessSurface& operator=(const HeadlessSurface&) = delete;
+
+  void begin_frame() override {
+    context_->make_current();
+    ImGui::GetIO().DeltaTime = 1.0f / 60;
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui::NewFrame();
+  }
+
+  void end_frame() override { picture_.draw(size_px_); }
+
+  bool is_closed() const override { return false; }
+  void keep_open() override {}
+  std::vector<std::string> take_dropped_files() override { return {}; }
+  void set_title(const std::string&) override {}
+  float scale() const override { return 1; }
+
+  Picture picture() const override { return picture_.read(); }
+
+ private:
+  std::unique_ptr<render::GlContext> context_;
+  glm::ivec2 size_px_;
+  GuiPicture picture_;
+};
+
+}  // namespace
+
+std::unique_ptr<GuiSurface> make_headless_surface(const glm::ivec2& size_px) {
+  return std::make_unique<HeadlessSurface>(size_px);
+}
+
+}  // namespace catchlight::app

@@ -1,0 +1,127 @@
+#include "app/window/picture_view.hpp"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+namespace catchlight::app {
+namespace {
+
+constexpr float kMinZoom = 0.05f, kMaxZoom = 64;
+constexpr float kPixelZoom = 3;
+constexpr double kFlicker_s = 0.5;
+
+ImTextureID id_of(const render::GlTexture& texture) {
+  return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture.id()));
+}
+
+ImVec2 im(const glm::vec2& v) {
+  return {v.x, v.y};
+}
+
+glm::vec2 vec(const ImVec2& v) {
+  return {v.x, v.y};
+}
+
+void upload(const render::GlTexture& texture, const RgbPicture& picture) {
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTextureSubImage2D(texture.id(), 0, 0, 0, picture.width, picture.height, GL_RGB, GL_UNSIGNED_BYTE, picture.rgb.data());
+}
+
+/// Mid grey where both are the same, `gain` times their difference around it.
+RgbPicture difference(const RgbPicture& a, const RgbPicture& b, float gain) {
+  RgbPicture result{a.width, a.height, std::vector<unsigned char>(a.rgb.size())};
+  for (std::size_t i = 0; i < a.rgb.size(); ++i)
+    result.rgb[i] = static_cast<unsigned char>(std::clamp(128 + gain * (float{1} * a.rgb[i] - b.rgb[i]), 0.0f, 255.0f));
+  return result;
+}
+
+}  // namespace
+
+PictureView::Place PictureView::place(const DrawnFrame& frame) const {
+  const glm::vec2 room = vec(ImGui::GetContentRegionAvail()), size(frame.plate.width, frame.plate.height);
+  const float zoom = zoom_ > 0 ? zoom_ : std::max(std::min(room.x / size.x, room.y / size.y), kMinZoom);
+  const glm::vec2 moved = zoom_ > 0 ? moved_px_ : glm::vec2(0);
+  return {glm::round(vec(ImGui::GetCursorScreenPos()) + 0.5f * (room - zoom * size) + moved), zoom};
+}
+
+/// The wheel zooms around the pointer.
+void PictureView::take_input(const Place& place, const glm::vec2& size_px) {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (!ImGui::IsWindowHovered()) return;
+  if (ImGui::IsMouseDragging(ImGuiMouseButton_Middle, 0)) {
+    if (zoom_ == 0) zoom_ = place.zoom, moved_px_ = glm::vec2(0);
+    moved_px_ += vec(io.MouseDelta);
+  }
+  if (io.MouseWheel == 0) return;
+  const float zoom = std::clamp(place.zoom * std::pow(1.25f, io.MouseWheel), kMinZoom, kMaxZoom);
+  const glm::vec2 pointed = (vec(io.MousePos) - place.corner_px) / place.zoom, middle = 0.5f * size_px;
+  const glm::vec2 moved = zoom_ > 0 ? moved_px_ : glm::vec2(0);
+  moved_px_ = moved + (place.zoom - zoom) * (pointed - middle);
+  zoom_ = zoom;
+}
+
+void PictureView::upload(const DrawnFrame& frame) {
+  const RgbPicture &plate = frame.plate, &composite = frame.composite;
+  if (width_ != plate.width || height_ != plate.height) {
+    width_ = plate.width, height_ = plate.height;
+    first_ = render::make_texture_2d("picture", GL_RGB8, width_, height_, GL_LINEAR);
+    second_ = render::make_texture_2d("beside it", GL_RGB8, width_, height_, GL_LINEAR);
+  }
+  if (view == View::difference)
+    app::upload(first_, difference(composite, plate, gain));
+  else
+    app::upload(first_, view == View::plate ? plate : composite);
+  if (view == View::split || view == View::flicker) app::upload(second_, plate);
+  uploaded_view_ = view, uploaded_gain_ = gain;
+}
+
+/// The plate left of an edge that can be dragged, the composite right of it.
+void PictureView::draw_split(const Place& place, const glm::vec2& size_px) {
+  const glm::vec2 size = place.zoom * size_px;
+  const float edge = place.corner_px.x + split_ * size.x;
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  list->AddImage(id_of(second_), im(place.corner_px), {edge, place.corner_px.y + size.y}, {0, 0}, {split_, 1});
+  list->AddLine({edge, place.corner_px.y}, {edge, place.corner_px.y + size.y}, IM_COL32(255, 255, 255, 160));
+  const float x = ImGui::GetIO().MousePos.x;
+  if (ImGui::IsWindowHovered() && ImGui::IsMouseDown(ImGuiMouseButton_Left))
+    split_ = std::clamp((x - place.corner_px.x) / size.x, 0.0f, 1.0f);
+}
+
+void PictureView::look_under_pointer(const DrawnFrame& frame, const Place& place) {
+  pixel_text_.clear();
+  const glm::ivec2 pixel(glm::floor((vec(ImGui::GetIO().MousePos) - place.corner_px) / place.zoom));
+  if (!ImGui::IsWindowHovered() || pixel.x < 0 || pixel.y < 0 || pixel.x >= frame.plate.width || pixel.y >= frame.plate.height)
+    return;
+  const std::size_t at = 3 * (static_cast<std::size_t>(pixel.y) * frame.plate.width + static_cast<std::size_t>(pixel.x));
+  const unsigned char *now = &frame.composite.rgb[at], *plate = &frame.plate.rgb[at];
+  char text[128];
+  std::snprintf(text, sizeof text, "(%d, %d)  composite %d %d %d  plate %d %d %d", pixel.x, pixel.y, now[0], now[1], now[2],
+                plate[0], plate[1], plate[2]);
+  pixel_text_ = text;
+}
+
+void PictureView::draw(const std::shared_ptr<const DrawnFrame>& frame, GuiItems& items) {
+  if (!frame) return ImGui::TextUnformatted("Opening the footage …");
+  if (frame != shown_ || uploaded_view_ != view || uploaded_gain_ != gain) upload(*frame);
+  shown_ = frame;
+  const glm::vec2 size(width_, height_);
+  take_input(place(*frame), size);
+  const Place where = place(*frame);
+  // Enlarged much, pixels are to be seen as they are.
+  for (const render::GlTexture* texture : {&first_, &second_})
+    glTextureParameteri(texture->id(), GL_TEXTURE_MAG_FILTER, where.zoom < kPixelZoom ? GL_LINEAR : GL_NEAREST);
+  const bool shows_second = view == View::flicker && std::fmod(ImGui::GetTime(), 2 * kFlicker_s) < kFlicker_s;
+  ImGui::GetWindowDrawList()->AddImage(id_of(shows_second ? second_ : first_), im(where.corner_px),
+                                       im(where.corner_px + where.zoom * size));
+  if (view == View::split) draw_split(where, size);
+  look_under_pointer(*frame, where);
+  ImGui::SetCursorScreenPos(im(where.corner_px));
+  ImGui::Dummy(im(where.zoom * size));
+  items.note("picture");
+}
+
+}  // namespace catchlight::app

@@ -1,0 +1,59 @@
+// The picture in the middle of the window.
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <memory>
+#include <string>
+
+#include "app/window/gui_items.hpp"
+#include "app/window/shot_player.hpp"
+#include "render/gl/gl_objects.hpp"
+
+namespace catchlight::app {
+
+enum class View { composite, plate, split, flicker, difference };
+constexpr auto names_of(View) {
+  return std::array{"composite", "plate", "split", "flicker", "difference"};
+}
+
+class PictureView {
+ public:
+  View view = View::composite;
+  float gain = 8;  ///< of the difference
+
+  /// Draws the frame into the current ImGui window, as large as fits or as it is zoomed: the wheel zooms, the middle button
+  /// moves.
+  void draw(const std::shared_ptr<const DrawnFrame>& frame, GuiItems& items);
+
+  /// The whole picture in the window.
+  void fit() { zoom_ = 0; }
+  /// A pixel of the picture is a pixel of the screen.
+  void actual_size() { zoom_ = 1; }
+
+  /// What the pixel under the pointer holds; empty where there is none.
+  const std::string& pixel_text() const { return pixel_text_; }
+
+ private:
+  struct Place {
+    glm::vec2 corner_px;  ///< of the picture, on the screen
+    float zoom;
+  };
+  Place place(const DrawnFrame& frame) const;
+  void take_input(const Place& place, const glm::vec2& size_px);
+  void upload(const DrawnFrame& frame);
+  void draw_split(const Place& place, const glm::vec2& size_px);
+  void look_under_pointer(const DrawnFrame& frame, const Place& place);
+
+  std::shared_ptr<const DrawnFrame> shown_;
+  View uploaded_view_ = View::composite;
+  float uploaded_gain_ = 0;
+  int width_ = 0, height_ = 0;
+  render::GlTexture first_, second_;  ///< the view's picture, and what it is beside or flickers with
+  float zoom_ = 0;                    ///< pixels of the screen a pixel of the picture; 0: as large as fits
+  glm::vec2 moved_px_{0};
+  float split_ = 0.5f;
+  std::string pixel_text_;
+};
+
+}  // namespace catchlight::app

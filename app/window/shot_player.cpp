@@ -1,0 +1,133 @@
+#include "app/window/shot_player.hpp"
+
+#include <chrono>
+#include <utility>
+
+#include "app/session/session.hpp"
+
+namespace catchlight::app {
+namespace {
+
+/// Thrown out of what takes long when nobody waits for it any more.
+struct GivenUp {};
+
+RgbPicture rgb_of(const Frame& frame) {
+  RgbPicture picture{frame.width_px(), frame.height_px(), {}};
+  const Plate plate = frame.rgb({0, 0, picture.width, picture.height});
+  picture.rgb = codes_8_bit(plate);
+  return picture;
+}
+
+}  // namespace
+
+ShotPlayer::ShotPlayer(Recording recording) : recording_(std::move(recording)) {
+  log_.set_quiet(true);
+  thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+}
+
+ShotPlayer::~ShotPlayer() = default;
+
+std::uint64_t ShotPlayer::wish(const SceneSettings& settings, std::int64_t position) {
+  const std::lock_guard lock(mutex_);
+  next_ = Wish{++last_wish_, settings, position};
+  wished_.notify_one();
+  return last_wish_;
+}
+
+std::shared_ptr<const DrawnFrame> ShotPlayer::newest() const {
+  const std::lock_guard lock(mutex_);
+  return newest_;
+}
+
+PlayerStatus ShotPlayer::status() const {
+  const std::lock_guard lock(mutex_);
+  return status_;
+}
+
+bool ShotPlayer::is_idle() const {
+  const std::lock_guard lock(mutex_);
+  return finished_ == last_wish_;
+}
+
+void ShotPlayer::publish(std::shared_ptr<const DrawnFrame> frame) {
+  const std::lock_guard lock(mutex_);
+  newest_ = std::move(frame);
+}
+
+void ShotPlayer::finish(std::uint64_t wish, const std::optional<std::string>& error) {
+  const std::lock_guard lock(mutex_);
+  finished_ = wish;
+  status_.error = error;
+  status_.stage.clear();
+  status_.warnings = log_.warnings();
+}
+
+/// The first frame as it is, while the shot is being opened.
+void ShotPlayer::show_footage() {
+  const std::unique_ptr<MediaSource> source = open_footage(recording_);
+  const std::optional<Frame> frame = source->read();
+  if (!frame) return;
+  auto shown = std::make_shared<DrawnFrame>();
+  shown->number = frame->number(), shown->time_s = frame->time_s();
+  shown->plate = shown->composite = rgb_of(*frame);
+  publish(std::move(shown));
+}
+
+void ShotPlayer::open(const std::stop_token& stop) {
+  log_.set_task_handler([this, stop](const std::string& stage, double share) {
+    if (stop.stop_requested()) throw GivenUp{};
+    const std::lock_guard lock(mutex_);
+    status_.stage = stage, status_.share = share;
+  });
+  show_footage();
+  session_ = std::make_unique<Session>(recording_, SessionOptions{.is_revisited = true}, log_);
+  const SourceInfo& info = session_->footage().info();
+  const std::lock_guard lock(mutex_);
+  status_.frame_count = info.frame_count.value_or(0);
+  if (info.frame_rate > 0) status_.frame_rate = info.frame_rate;
+}
+
+void ShotPlayer::draw(const Wish& wish) {
+  const auto start = std::chrono::steady_clock::now();
+  session_->apply(wish.settings);
+  session_->seek(wish.position);
+  std::optional<FrameJob> job = session_->decode();
+  if (!job) return;
+  session_->track(*job);
+  auto drawn = std::make_shared<DrawnFrame>();
+  drawn->position = wish.position, drawn->wish = wish.number;
+  drawn->number = job->image.number(), drawn->time_s = job->image.time_s();
+  drawn->plate = rgb_of(job->image);
+  session_->render(*job);
+  drawn->composite = job->result.rect.empty() ? drawn->plate : rgb_of(job->image.with_composite(job->result));
+  drawn->track = job->track;
+  drawn->pass_times = session_->renderer().pass_times();
+  drawn->draw_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  publish(std::move(drawn));
+  std::vector<PlanEntry> plan = session_->plan();
+  const std::lock_guard lock(mutex_);
+  status_.plan = std::move(plan);
+}
+
+void ShotPlayer::run(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    Wish wish;
+    {
+      std::unique_lock lock(mutex_);
+      if (!wished_.wait(lock, stop, [&] { return next_.has_value(); })) return;
+      wish = *std::exchange(next_, std::nullopt);
+    }
+    std::optional<std::string> error;
+    try {
+      if (!session_) open(stop);
+      draw(wish);
+    } catch (const GivenUp&) {
+      return;
+    } catch (const std::exception& failure) {
+      error = failure.what();
+    }
+    finish(wish.number, error);
+  }
+}
+
+}  // namespace catchlight::app

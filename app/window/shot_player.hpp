@@ -1,0 +1,101 @@
+// Draws the frames of a shot that a person looks at, on a thread of its own: the newest wish counts.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "app/session/plan.hpp"
+#include "app/session/recording.hpp"
+#include "app/support/log.hpp"
+#include "catchlight/track.hpp"
+#include "render/pass_time.hpp"
+
+namespace catchlight::app {
+
+class Session;
+
+/// 8-bit RGB, rows from the top.
+struct RgbPicture {
+  int width = 0, height = 0;
+  std::vector<unsigned char> rgb;
+};
+
+/// One frame as it was drawn.
+struct DrawnFrame {
+  std::int64_t position = 0;  ///< among the shot's frames, from 0
+  std::int64_t number = 0;    ///< the frame's own
+  double time_s = 0;
+  std::uint64_t wish = 0;  ///< the wish that it fulfils; 0: the footage alone, before anything could be drawn
+  RgbPicture plate;
+  RgbPicture composite;  ///< as `overlay` writes it
+  TrackRow track;
+  std::vector<render::PassTime> pass_times;
+  double draw_ms = 0;  ///< by the clock
+};
+
+/// What the player is at.
+struct PlayerStatus {
+  std::string stage;  ///< "track", "bake", ...; empty: nothing but frames
+  double share = 0;   ///< of that stage
+  std::optional<std::string> error;
+  std::vector<std::string> warnings;
+  std::int64_t frame_count = 0;  ///< 0 while it is not known
+  double frame_rate = 24;
+  std::vector<PlanEntry> plan;
+};
+
+class ShotPlayer {
+ public:
+  /// Opens the recording on the player's thread. Its first frame is shown at once, and drawn when the shot is tracked and baked.
+  /// An error becomes part of the status.
+  explicit ShotPlayer(Recording recording);
+  /// Gives up what is going on: tracking and a bake end at their next step.
+  ~ShotPlayer();
+  ShotPlayer(const ShotPlayer&) = delete;
+  ShotPlayer& operator=(const ShotPlayer&) = delete;
+
+  /// Asks for a frame under these settings. What was asked for before and has not begun is left out. The number of the wish.
+  std::uint64_t wish(const SceneSettings& settings, std::int64_t position);
+
+  /// The newest frame drawn; null before the first.
+  std::shared_ptr<const DrawnFrame> newest() const;
+
+  PlayerStatus status() const;
+
+  /// Whether the last wish is fulfilled, or has failed.
+  bool is_idle() const;
+
+ private:
+  struct Wish {
+    std::uint64_t number = 0;
+    SceneSettings settings;
+    std::int64_t position = 0;
+  };
+
+  void run(const std::stop_token& stop);
+  void open(const std::stop_token& stop);
+  void draw(const Wish& wish);
+  void show_footage();
+  void publish(std::shared_ptr<const DrawnFrame> frame);
+  void finish(std::uint64_t wish, const std::optional<std::string>& error);
+
+  Recording recording_;
+  Log log_;
+  std::unique_ptr<Session> session_;  ///< the player thread's
+  mutable std::mutex mutex_;          ///< of all that follows
+  std::condition_variable_any wished_;
+  std::optional<Wish> next_;
+  std::uint64_t last_wish_ = 0, finished_ = 0;
+  std::shared_ptr<const DrawnFrame> newest_;
+  PlayerStatus status_;
+  std::jthread thread_;
+};
+
+}  // namespace catchlight::app

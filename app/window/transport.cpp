@@ -1,0 +1,95 @@
+#include "app/window/transport.hpp"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "app/window/gui_keys.hpp"
+#include "catchlight/util/enum_names.hpp"
+
+namespace catchlight::app {
+
+void Playhead::go_to(std::int64_t position) {
+  position_ = std::clamp(position, std::int64_t{0}, std::max(count_ - 1, std::int64_t{0}));
+}
+
+void Playhead::advance(double seconds, double frame_rate) {
+  if (!is_playing_ || count_ == 0 || !(frame_rate > 0)) return;
+  since_s_ += seconds;
+  const double frames = std::floor(since_s_ * frame_rate);
+  if (frames < 1) return;
+  since_s_ -= frames / frame_rate;
+  advance_by(static_cast<std::int64_t>(std::min(frames, 1e6)));
+}
+
+void Playhead::advance_by(std::int64_t frames) {
+  const std::int64_t first = std::min(begin(), count_ - 1), last = std::max(std::min(end(), count_) - 1, first);
+  const std::int64_t length = last - first + 1;
+  const std::int64_t offset = std::clamp(position_, first, last) - first;
+  switch (mode) {
+    case PlayMode::loop:
+      return go_to(first + (offset + frames) % length);
+    case PlayMode::once:
+      if (offset + frames >= length) is_playing_ = false;
+      return go_to(std::min(first + offset + frames, last));
+    case PlayMode::ping_pong:
+      const std::int64_t period = std::max(2 * (length - 1), std::int64_t{1});
+      const std::int64_t phase = ((direction_ > 0 ? offset : period - offset) + frames) % period;
+      direction_ = phase < length - 1 ? 1 : -1;
+      return go_to(first + (phase < length ? phase : period - phase));
+  }
+}
+
+namespace {
+
+void take_keys(Playhead& playhead) {
+  if (ImGui::GetIO().WantTextInput) return;
+  if (is_key_pressed("space")) playhead.toggle();
+  if (is_key_pressed("left")) playhead.step(-1);
+  if (is_key_pressed("right")) playhead.step(1);
+  if (is_key_pressed("home")) playhead.step(playhead.begin() - playhead.position());
+  if (is_key_pressed("end")) playhead.step(playhead.end() - 1 - playhead.position());
+  if (is_key_pressed("[")) playhead.mark_begin();
+  if (is_key_pressed("]")) playhead.mark_end();
+}
+
+bool button(const char* text, const char* name, const char* help, GuiItems& items) {
+  const bool is_clicked = ImGui::Button(text, {2.2f * ImGui::GetFrameHeight(), 0});
+  items.note(name);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
+  ImGui::SameLine();
+  return is_clicked;
+}
+
+}  // namespace
+
+void draw_transport(Playhead& playhead, std::int64_t frame_number, double time_s, GuiItems& items) {
+  take_keys(playhead);
+  if (button("|<", "first", "first frame (home)", items)) playhead.step(playhead.begin() - playhead.position());
+  if (button("<", "back", "one frame back (left)", items)) playhead.step(-1);
+  if (button(playhead.is_playing() ? "||" : "▶", "play", "play or pause (space)", items)) playhead.toggle();
+  if (button(">", "forward", "one frame on (right)", items)) playhead.step(1);
+  if (button(">|", "last", "last frame (end)", items)) playhead.step(playhead.end() - 1 - playhead.position());
+  ImGui::SetNextItemWidth(5 * ImGui::GetFrameHeight());
+  if (ImGui::BeginCombo("##mode", name_of(playhead.mode).c_str())) {
+    for (const std::string& name : name_list<PlayMode>())
+      if (ImGui::Selectable(name.c_str(), name == name_of(playhead.mode))) playhead.mode = *value_named<PlayMode>(name);
+    ImGui::EndCombo();
+  }
+  items.note("mode");
+  ImGui::SameLine();
+  if (button("[", "mark begin", "the range begins here ([)", items)) playhead.mark_begin();
+  if (button("]", "mark end", "the range ends here (])", items)) playhead.mark_end();
+  if (button("x", "clear marks", "play all", items)) playhead.clear_marks();
+  ImGui::Text("frame %lld   %.3f s", static_cast<long long>(frame_number), time_s);
+  std::int64_t position = playhead.position();
+  const std::int64_t first = 0, last = std::max(playhead.frame_count() - 1, std::int64_t{0});
+  ImGui::SetNextItemWidth(-1);
+  if (ImGui::SliderScalar("##timeline", ImGuiDataType_S64, &position, &first, &last, "%lld"))
+    playhead.step(position - playhead.position());
+  items.note("timeline");
+}
+
+}  // namespace catchlight::app

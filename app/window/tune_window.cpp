@@ -1,0 +1,280 @@
+#include "app/window/tune_window.hpp"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <opencv2/imgproc.hpp>
+
+#include "app/settings/change_cost.hpp"
+#include "app/settings/parameters.hpp"
+#include "app/settings/scene_file_edit.hpp"
+#include "app/window/gui_keys.hpp"
+#include "catchlight/error.hpp"
+#include "render/image/picture_file.hpp"
+
+namespace catchlight::app {
+namespace {
+
+constexpr float kSideWidth = 370, kTopHeight = 34, kBottomHeight = 96;
+
+constexpr const char* kHelp =
+    "space            play, pause\n"
+    "left, right      one frame back, on\n"
+    "home, end        first, last frame\n"
+    "[ and ]          mark the range that plays\n"
+    "wheel            zoom; middle button moves the picture\n"
+    "f and 1          the whole picture, pixel by pixel\n"
+    "a and b          flip to settings A, B; with shift, keep them\n"
+    "ctrl+z, ctrl+y   undo, redo\n"
+    "ctrl+s           save the scene file\n"
+    "f1               these keys";
+
+/// Begins a part of the window: fixed, without a frame of its own.
+void begin_part(const char* name, float x, float y, float width, float height, ImGuiWindowFlags flags = 0) {
+  ImGui::SetNextWindowPos({x, y});
+  ImGui::SetNextWindowSize({width, height});
+  ImGui::Begin(name, nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus | flags);
+}
+
+void write_picture(const std::string& path, int width, int height, const std::vector<unsigned char>& rgb) {
+  cv::Mat bgr;
+  cv::cvtColor(cv::Mat(height, width, CV_8UC3, const_cast<unsigned char*>(rgb.data())), bgr, cv::COLOR_RGB2BGR);
+  render::write_png(path, bgr);
+}
+
+}  // namespace
+
+TuneWindow::TuneWindow(GuiSurface& surface, const std::string& location, RecordingOverrides overrides)
+    : surface_(surface), overrides_(std::move(overrides)) {
+  if (!location.empty()) open(location);
+}
+
+void TuneWindow::open(const std::string& location) {
+  Recording recording = open_recording(location, overrides_);  // where this throws, all is as before
+  player_.reset();
+  recording_ = recording;
+  history_.emplace(recording.scene);
+  playhead_ = {};
+  shown_ = nullptr;
+  wished_settings_.reset();
+  wished_position_ = -1;
+  player_ = std::make_unique<ShotPlayer>(std::move(recording));
+  surface_.set_title(recording_->name + " – Catchlight");
+}
+
+std::string TuneWindow::scene_file() const {
+  if (overrides_.scene_file) return *overrides_.scene_file;
+  return (std::filesystem::path(recording_->folder) / "scene.toml").string();
+}
+
+void TuneWindow::set(const std::string& key, const std::string& text) {
+  if (!history_) throw Error("set " + key + ": no recording is open");
+  SceneSettings next = history_->now();
+  set_parameter_from_text(next, key, text);
+  history_->end_gesture();
+  history_->change(std::move(next), key);
+  history_->end_gesture();
+}
+
+std::string TuneWindow::value_of(const std::string& key) const {
+  if (key == "frame") return std::to_string(playhead_.position());
+  if (key == "message") return message_;
+  const Parameter* parameter = find_parameter(key);
+  return parameter && history_ ? parameter_text(history_->now(), *parameter) : "unknown";
+}
+
+void TuneWindow::picture(const std::string& path) {
+  if (!shown_) throw Error("picture " + path + ": nothing is shown yet");
+  write_picture(path, shown_->composite.width, shown_->composite.height, shown_->composite.rgb);
+}
+
+void TuneWindow::save(const std::string& path) {
+  if (!history_) return;
+  const std::string to = path.empty() ? scene_file() : path;
+  try {
+    save_scene_file(scene_file(), to, history_->file(), history_->now());
+    if (path.empty()) history_->mark_saved();
+    message_ = "saved " + to;
+  } catch (const Error& error) {
+    message_ = error.what();
+  }
+}
+
+bool TuneWindow::is_idle() const {
+  const bool asks_nothing_new = !player_ || (wished_position_ == playhead_.position() && wished_settings_ && player_->is_idle() &&
+                                             costs_of_change(*wished_settings_, history_->now()).empty());
+  return asks_nothing_new && screenshot_.empty() && !playhead_.is_playing() && (!player_ || shown_ == player_->newest());
+}
+
+/// While the footage plays, the next frame is asked for when the last one came: what cannot be drawn in time is left out.
+void TuneWindow::ask_player() {
+  if (!player_) return;
+  const PlayerStatus status = player_->status();
+  playhead_.set_frame_count(status.frame_count);
+  playhead_.advance(ImGui::GetIO().DeltaTime, status.frame_rate);
+  shown_ = player_->newest();
+  if (playhead_.is_playing() && !player_->is_idle()) return;
+  const bool is_new = wished_position_ != playhead_.position() || !wished_settings_ ||
+                      !costs_of_change(*wished_settings_, history_->now()).empty();
+  if (!is_new) return;
+  wished_position_ = playhead_.position();
+  wished_settings_ = history_->now();
+  player_->wish(*wished_settings_, wished_position_);
+}
+
+void TuneWindow::take_keys() {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (is_key_pressed("f1")) shows_help_ = !shows_help_;
+  if (io.WantTextInput || !history_) return;
+  if (io.KeyCtrl && is_key_pressed("z")) io.KeyShift ? history_->redo() : history_->undo();
+  if (io.KeyCtrl && is_key_pressed("y")) history_->redo();
+  if (io.KeyCtrl && is_key_pressed("s")) save("");
+  if (io.KeyCtrl) return;
+  if (is_key_pressed("f")) picture_view_.fit();
+  if (is_key_pressed("1")) picture_view_.actual_size();
+  if (is_key_pressed("a")) io.KeyShift ? history_->keep(0) : history_->take(0);
+  if (is_key_pressed("b")) io.KeyShift ? history_->keep(1) : history_->take(1);
+}
+
+void TuneWindow::draw_top() {
+  const auto button = [&](const char* name, bool is_possible, const char* help) {
+    ImGui::BeginDisabled(!is_possible);
+    const bool is_clicked = ImGui::Button(name);
+    items_.note(name);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    return is_clicked;
+  };
+  const bool is_open = history_.has_value();
+  if (button("undo", is_open && history_->can_undo(), "ctrl+z")) history_->undo();
+  if (button("redo", is_open && history_->can_redo(), "ctrl+y")) history_->redo();
+  if (button("save", is_open && !history_->is_saved(), "ctrl+s: writes the scene file, and keeps its comments")) save("");
+  if (button("keep A", is_open, "shift+a")) history_->keep(0);
+  if (button("A", is_open && history_->has(0), "flip to the settings kept as A")) history_->take(0);
+  if (button("keep B", is_open, "shift+b")) history_->keep(1);
+  if (button("B", is_open && history_->has(1), "flip to the settings kept as B")) history_->take(1);
+  for (const std::string& name : name_list<View>()) {
+    if (ImGui::RadioButton(name.c_str(), name == name_of(picture_view_.view))) picture_view_.view = *value_named<View>(name);
+    items_.note("view " + name);
+    ImGui::SameLine();
+  }
+  if (picture_view_.view == View::difference) {
+    ImGui::SetNextItemWidth(100 * surface_.scale());
+    ImGui::SliderFloat("gain", &picture_view_.gain, 1, 64, "%.0f", ImGuiSliderFlags_Logarithmic);
+    items_.note("gain");
+    ImGui::SameLine();
+  }
+  if (button("fit", is_open, "the whole picture (f)")) picture_view_.fit();
+  if (button("1:1", is_open, "pixel by pixel (1)")) picture_view_.actual_size();
+  if (button("?", true, "keys (f1)")) shows_help_ = !shows_help_;
+}
+
+void TuneWindow::draw_picture() {
+  if (!recording_)
+    ImGui::TextWrapped(
+        "Drop a recording here: a folder with footage and scene.toml, or a scene file. Examples are in recordings/.");
+  else
+    picture_view_.draw(shown_, items_);
+}
+
+void TuneWindow::draw_side() {
+  if (history_) controls_.draw(*history_, items_);
+  if (!player_ || !ImGui::CollapsingHeader("plan")) return;
+  const PlayerStatus status = player_->status();
+  for (const PlanEntry& entry : status.plan)
+    ImGui::TextWrapped("%s = %s: %s", entry.choice.c_str(), entry.value.c_str(), entry.reason.c_str());
+  for (const std::string& warning : status.warnings) ImGui::TextWrapped("warning: %s", warning.c_str());
+}
+
+void TuneWindow::draw_status() {
+  if (!player_) return;
+  const PlayerStatus status = player_->status();
+  if (status.error) return ImGui::TextColored({1, 0.5f, 0.4f, 1}, "%s", status.error->c_str());
+  if (!player_->is_idle() && !status.stage.empty())
+    return ImGui::ProgressBar(static_cast<float>(std::min(status.share, 1.0)), {200 * surface_.scale(), 0}, status.stage.c_str());
+  if (!shown_) return;
+  std::string text = shown_->wish == 0
+                         ? "the footage alone"
+                         : std::string("full quality, ") + std::to_string(static_cast<int>(shown_->draw_ms)) + " ms";
+  if (shown_->wish != 0 && !shown_->track.found) text += "; no tag in this frame";
+  if (!player_->is_idle()) text += "; drawing …";
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::SameLine();
+  ImGui::TextDisabled("%s", (picture_view_.pixel_text().empty() ? message_ : picture_view_.pixel_text()).c_str());
+}
+
+void TuneWindow::draw_bottom() {
+  if (!player_) return;
+  draw_transport(playhead_, shown_ ? shown_->number : 0, shown_ ? shown_->time_s : 0, items_);
+  draw_status();
+}
+
+void TuneWindow::draw_questions() {
+  if (shows_help_ && ImGui::Begin("Keys", &shows_help_, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings))
+    ImGui::TextUnformatted(kHelp);
+  if (shows_help_) ImGui::End();
+  if (!asks_to_quit_) return;
+  ImGui::OpenPopup("Unsaved changes");
+  if (!ImGui::BeginPopupModal("Unsaved changes", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
+  ImGui::Text("%s has changes that are not saved.", recording_->name.c_str());
+  const auto choice = [&](const char* name) {
+    const bool is_clicked = ImGui::Button(name);
+    items_.note(name);
+    ImGui::SameLine();
+    return is_clicked;
+  };
+  if (choice("save and quit")) save(""), is_done_ = history_->is_saved(), asks_to_quit_ = false;
+  if (choice("quit without saving")) is_done_ = true;
+  if (choice("stay")) asks_to_quit_ = false;
+  if (!asks_to_quit_) ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+}
+
+void TuneWindow::take_screenshot() {
+  if (screenshot_.empty()) return;
+  const GuiSurface::Picture picture = surface_.picture();
+  write_picture(std::exchange(screenshot_, ""), picture.width, picture.height, picture.rgb);
+}
+
+void TuneWindow::frame() {
+  surface_.begin_frame();
+  items_.begin_frame();
+  for (const std::string& file : surface_.take_dropped_files()) try {
+      open(file);
+    } catch (const Error& error) {
+      message_ = error.what();
+    }
+  take_keys();
+  ask_player();
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  const float side = kSideWidth * surface_.scale(), top = kTopHeight * surface_.scale(),
+              bottom = kBottomHeight * surface_.scale();
+  begin_part("top", 0, 0, size.x, top);
+  draw_top();
+  ImGui::End();
+  begin_part("picture", 0, top, size.x - side, size.y - top - bottom, ImGuiWindowFlags_NoScrollWithMouse);
+  draw_picture();
+  ImGui::End();
+  begin_part("side", size.x - side, top, side, size.y - top, ImGuiWindowFlags_AlwaysVerticalScrollbar);
+  draw_side();
+  ImGui::End();
+  begin_part("bottom", 0, size.y - bottom, size.x - side, bottom);
+  draw_bottom();
+  ImGui::End();
+  draw_questions();
+  surface_.end_frame();
+  take_screenshot();
+  if (!surface_.is_closed()) return;
+  surface_.keep_open();
+  if (history_ && !history_->is_saved())
+    asks_to_quit_ = true;
+  else
+    is_done_ = true;
+}
+
+}  // namespace catchlight::app

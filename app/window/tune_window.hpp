@@ -1,0 +1,71 @@
+// `catchlight tune`: the footage with its objects, and everything that can be turned.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/session/recording.hpp"
+#include "app/window/gui_items.hpp"
+#include "app/window/gui_surface.hpp"
+#include "app/window/parameter_controls.hpp"
+#include "app/window/picture_view.hpp"
+#include "app/window/settings_history.hpp"
+#include "app/window/shot_player.hpp"
+#include "app/window/transport.hpp"
+#include "app/window/ui_script.hpp"
+
+namespace catchlight::app {
+
+class TuneWindow final : public ScriptTarget {
+ public:
+  /// Keeps a reference. `location`: a recording; empty: an empty window. `overrides`: what the command line says about it.
+  TuneWindow(GuiSurface& surface, const std::string& location, RecordingOverrides overrides);
+
+  /// One frame of the window. Never waits for what the player does.
+  void frame();
+
+  /// Whether the window may go: it was closed, and what would be lost was asked about.
+  bool is_done() const { return is_done_; }
+
+  void open(const std::string& location) override;
+  void seek(std::int64_t position) override { playhead_.go_to(position); }
+  void set(const std::string& key, const std::string& text) override;
+  std::string value_of(const std::string& key) const override;
+  void screenshot(const std::string& path) override { screenshot_ = path; }
+  void picture(const std::string& path) override;
+  void save(const std::string& path) override;
+  void quit() override { is_done_ = true; }
+  bool is_idle() const override;
+  const GuiItems& items() const override { return items_; }
+
+ private:
+  void ask_player();
+  void take_keys();
+  void draw_top();
+  void draw_picture();
+  void draw_side();
+  void draw_bottom();
+  void draw_status();
+  void draw_questions();
+  std::string scene_file() const;
+  void take_screenshot();
+
+  GuiSurface& surface_;
+  RecordingOverrides overrides_;
+  std::optional<Recording> recording_;
+  std::optional<SettingsHistory> history_;  ///< there is one where there is a recording
+  std::unique_ptr<ShotPlayer> player_;
+  std::shared_ptr<const DrawnFrame> shown_;
+  std::optional<SceneSettings> wished_settings_;
+  std::int64_t wished_position_ = -1;
+  Playhead playhead_;
+  PictureView picture_view_;
+  ParameterControls controls_;
+  GuiItems items_;
+  std::string message_, screenshot_;
+  bool is_done_ = false, asks_to_quit_ = false, shows_help_ = false;
+};
+
+}  // namespace catchlight::app

@@ -1,0 +1,169 @@
+#include "app/window/ui_script.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <sstream>
+
+#include "app/window/gui_keys.hpp"
+#include "catchlight/error.hpp"
+#include "catchlight/util/text.hpp"
+
+namespace catchlight::app {
+namespace {
+
+struct Verb {
+  const char* name;
+  std::size_t min_words;
+  const char* form;
+};
+constexpr std::array kVerbs{
+    Verb{"open", 1, "open RECORDING"},
+    Verb{"seek", 1, "seek FRAME"},
+    Verb{"set", 2, "set KEY VALUE"},
+    Verb{"click", 1, "click CONTROL"},
+    Verb{"drag", 3, "drag CONTROL FROM TO (shares of its width), or FROM_X FROM_Y TO_X TO_Y"},
+    Verb{"wheel", 2, "wheel CONTROL STEPS"},
+    Verb{"type", 1, "type TEXT"},
+    Verb{"key", 1, "key NAME, ctrl+NAME, ctrl+shift+NAME"},
+    Verb{"wait", 0, "wait: until everything asked for is shown"},
+    Verb{"screenshot", 1, "screenshot FILE"},
+    Verb{"picture", 1, "picture FILE"},
+    Verb{"expect", 2, "expect KEY VALUE"},
+    Verb{"save", 0, "save [FILE]"},
+    Verb{"quit", 0, "quit"},
+};
+
+std::string after(const ScriptCommand& command, std::size_t first) {
+  std::string text;
+  for (std::size_t i = first; i < command.words.size(); ++i) text += (i > first ? " " : "") + command.words[i];
+  return text;
+}
+
+}  // namespace
+
+std::vector<ScriptCommand> read_ui_script(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw Error(path + ": cannot be read; expected a script for the window");
+  std::vector<ScriptCommand> commands;
+  int number = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++number;
+    std::istringstream words(line.substr(0, line.find('#')));
+    ScriptCommand command{number, "", {}};
+    if (!(words >> command.verb)) continue;
+    for (std::string word; words >> word;) command.words.push_back(word);
+    const auto verb = std::ranges::find_if(kVerbs, [&](const Verb& v) { return command.verb == v.name; });
+    const std::string where = path + ":" + std::to_string(number) + ": ";
+    if (verb == kVerbs.end()) {
+      std::vector<std::string> names;
+      for (const Verb& known : kVerbs) names.emplace_back(known.name);
+      throw Error(where + "unknown command '" + command.verb + "'; did you mean '" + nearest(command.verb, names) + "'?");
+    }
+    if (command.words.size() < verb->min_words) throw Error(where + "expected: " + verb->form);
+    commands.push_back(std::move(command));
+  }
+  return commands;
+}
+
+UiScript::UiScript(std::string path, std::vector<ScriptCommand> commands)
+    : path_(std::move(path)), commands_(std::move(commands)) {}
+
+void UiScript::fail(const ScriptCommand& command, const std::string& why) const {
+  throw Error(path_ + ":" + std::to_string(command.line) + ": " + why);
+}
+
+ImVec2 UiScript::point_of(const ScriptTarget& target, const ScriptCommand& command, std::size_t word) const {
+  const std::string name = command.words[word];
+  const auto rect = target.items().find(name);
+  if (!rect) fail(command, "there is no control '" + name + "' in the window now");
+  return {0.5f * (rect->min.x + rect->max.x), 0.5f * (rect->min.y + rect->max.y)};
+}
+
+void UiScript::click(const ImVec2& at) {
+  gestures_.push_back([at](ImGuiIO& io) { io.MousePos = at; });
+  gestures_.push_back([](ImGuiIO& io) { io.MouseDown[0] = true; });
+  gestures_.push_back([](ImGuiIO& io) { io.MouseDown[0] = false; });
+  gestures_.push_back([](ImGuiIO&) {});
+}
+
+void UiScript::drag(const ImVec2& from, const ImVec2& to) {
+  constexpr int kSteps = 8;
+  gestures_.push_back([from](ImGuiIO& io) { io.MousePos = from; });
+  gestures_.push_back([](ImGuiIO& io) { io.MouseDown[0] = true; });
+  for (int step = 1; step <= kSteps; ++step)
+    gestures_.push_back([from, to, share = static_cast<float>(step) / kSteps](ImGuiIO& io) {
+      io.MousePos = {from.x + share * (to.x - from.x), from.y + share * (to.y - from.y)};
+    });
+  gestures_.push_back([](ImGuiIO& io) { io.MouseDown[0] = false; });
+  gestures_.push_back([](ImGuiIO&) {});
+}
+
+void UiScript::begin(ScriptTarget& target, const ScriptCommand& command) {
+  const std::string& verb = command.verb;
+  const auto& words = command.words;
+  const auto number = [&](std::size_t i) {
+    const auto value = real_from_text(words[i]);
+    if (!value) fail(command, "'" + words[i] + "' is no number");
+    return static_cast<float>(*value);
+  };
+  if (verb == "open") return target.open(after(command, 0));
+  if (verb == "seek") return target.seek(static_cast<std::int64_t>(number(0)));
+  if (verb == "set") return target.set(words[0], after(command, 1));
+  if (verb == "screenshot") return target.screenshot(words[0]);
+  if (verb == "picture") return target.picture(words[0]);
+  if (verb == "save") return target.save(after(command, 0));
+  if (verb == "quit") return target.quit();
+  if (verb == "click") {
+    ScriptCommand whole{command.line, verb, {after(command, 0)}};
+    return click(point_of(target, whole, 0));
+  }
+  if (verb == "wheel") {
+    const ImVec2 at = point_of(target, command, 0);
+    const float steps = number(1);
+    gestures_.push_back([at](ImGuiIO& io) { io.MousePos = at; });
+    gestures_.push_back([steps](ImGuiIO& io) { io.MouseWheel = steps; });
+    gestures_.push_back([](ImGuiIO& io) { io.MouseWheel = 0; });
+    return;
+  }
+  if (verb == "drag") {
+    if (words.size() >= 4 && real_from_text(words[0])) return drag({number(0), number(1)}, {number(2), number(3)});
+    const auto rect = target.items().find(words[0]);
+    if (!rect) fail(command, "there is no control '" + words[0] + "' in the window now");
+    const float y = 0.5f * (rect->min.y + rect->max.y), width = rect->max.x - rect->min.x;
+    return drag({rect->min.x + number(1) * width, y}, {rect->min.x + number(2) * width, y});
+  }
+  if (verb == "type") {
+    const std::string text = after(command, 0);
+    gestures_.push_back([text](ImGuiIO& io) { io.AddInputCharactersUTF8(text.c_str()); });
+    return gestures_.push_back([](ImGuiIO&) {});
+  }
+  if (verb == "key") {
+    std::string name = words[0];
+    bool with_ctrl = false, with_shift = false;
+    for (; name.starts_with("ctrl+"); name.erase(0, 5)) with_ctrl = true;
+    for (; name.starts_with("shift+"); name.erase(0, 6)) with_shift = true;
+    const auto key = key_number(name);
+    if (!key) fail(command, "there is no key '" + name + "'");
+    gestures_.push_back([=](ImGuiIO& io) { io.KeyCtrl = with_ctrl, io.KeyShift = with_shift, io.KeysDown[*key] = true; });
+    gestures_.push_back([=](ImGuiIO& io) { io.KeyCtrl = io.KeyShift = io.KeysDown[*key] = false; });
+    return;
+  }
+  if (verb == "expect" && target.value_of(words[0]) != after(command, 1))
+    fail(command, words[0] + " is " + target.value_of(words[0]) + ", expected " + after(command, 1));
+}
+
+void UiScript::before_frame(ScriptTarget& target) {
+  if (!gestures_.empty()) {
+    gestures_.front()(ImGui::GetIO());
+    gestures_.pop_front();
+    return;
+  }
+  if (next_ == commands_.size()) return;
+  const ScriptCommand& command = commands_[next_];
+  if (command.verb == "wait" && !target.is_idle()) return;
+  ++next_;
+  begin(target, command);
+}
+
+}  // namespace catchlight::app

@@ -1,0 +1,113 @@
+#include <epoxy/gl.h>
+// After the loader of OpenGL.
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <cstdlib>
+#include <utility>
+
+#include "app/window/gui_picture.hpp"
+#include "app/window/gui_style.hpp"
+#include "app/window/gui_surface.hpp"
+#include "catchlight/error.hpp"
+#include "render/gl/gl_context.hpp"
+
+namespace catchlight::app {
+namespace {
+
+std::string last_glfw_error() {
+  const char* text = nullptr;
+  return glfwGetError(&text) != GLFW_NO_ERROR && text ? text : "no reason given";
+}
+
+/// GLFW from its start to its end.
+class Glfw {
+ public:
+  Glfw() {
+    if (!glfwInit())
+      throw Error("no window can be opened: " + last_glfw_error() +
+                  "; run this on a desktop, or without a window: --frames N --screenshot FILE");
+  }
+  ~Glfw() { glfwTerminate(); }
+  Glfw(const Glfw&) = delete;
+  Glfw& operator=(const Glfw&) = delete;
+};
+
+class WindowSurface final : public GuiSurface {
+ public:
+  WindowSurface(const glm::ivec2& size_px, const std::string& title) {
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    window_ = glfwCreateWindow(size_px.x, size_px.y, title.c_str(), nullptr, nullptr);
+    if (!window_)
+      throw Error("no window with OpenGL 4.5: " + last_glfw_error() +
+                  "; install Mesa (libgl1, libgl1-mesa-dri) or the graphics card's driver");
+    glfwMakeContextCurrent(window_);
+    glfwSwapInterval(1);
+    glfwSetWindowUserPointer(window_, this);
+    glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
+      auto* self = static_cast<WindowSurface*>(glfwGetWindowUserPointer(window));
+      self->dropped_.insert(self->dropped_.end(), paths, paths + count);
+    });
+    render::install_debug_callback();
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;
+    float across = 1, down = 1;
+    glfwGetWindowContentScale(window_, &across, &down);
+    scale_ = across;
+    set_gui_style(scale_);
+    ImGui_ImplGlfw_InitForOpenGL(window_, true);
+    ImGui_ImplOpenGL3_Init("#version 450");
+  }
+  ~WindowSurface() override {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+    glfwDestroyWindow(window_);
+  }
+  WindowSurface(const WindowSurface&) = delete;
+  WindowSurface& operator=(const WindowSurface&) = delete;
+
+  void begin_frame() override {
+    glfwMakeContextCurrent(window_);
+    glfwPollEvents();
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+  }
+
+  void end_frame() override {
+    glm::ivec2 size_px(0);
+    glfwGetFramebufferSize(window_, &size_px.x, &size_px.y);
+    picture_.draw(glm::max(size_px, 1));
+    picture_.show();
+    glfwSwapBuffers(window_);
+  }
+
+  bool is_closed() const override { return glfwWindowShouldClose(window_) != 0; }
+  void keep_open() override { glfwSetWindowShouldClose(window_, GLFW_FALSE); }
+  std::vector<std::string> take_dropped_files() override { return std::exchange(dropped_, {}); }
+  void set_title(const std::string& title) override { glfwSetWindowTitle(window_, title.c_str()); }
+  float scale() const override { return scale_; }
+  Picture picture() const override { return picture_.read(); }
+
+ private:
+  Glfw glfw_;
+  GLFWwindow* window_ = nullptr;
+  float scale_ = 1;
+  std::vector<std::string> dropped_;
+  GuiPicture picture_;
+};
+
+}  // namespace
+
+std::unique_ptr<GuiSurface> make_window_surface(const glm::ivec2& size_px, const std::string& title) {
+  return std::make_unique<WindowSurface>(size_px, title);
+}
+
+}  // namespace catchlight::app

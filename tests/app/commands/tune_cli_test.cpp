@@ -1,0 +1,115 @@
+// The window as scripts use it, without a screen.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <sstream>
+
+#include "tests/support/run_command.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace catchlight::tests {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string kRecordings = std::string(CATCHLIGHT_SOURCE_DIR) + "/recordings/";
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// A copy of a shipped recording, so that its scene may be saved.
+class TuneCli : public ::testing::Test {
+ protected:
+  TuneCli() {
+    for (const char* name : {"video.mp4", "camera.yaml", "scene.toml", "object.glb", "probe.exr"})
+      std::filesystem::copy_file(kRecordings + "matte/" + name, folder_.path(name));
+  }
+
+  std::string path(const std::string& name) const { return folder_.path(name); }
+  std::string folder() const { return std::filesystem::path(folder_.path("x")).parent_path().string(); }
+
+  CommandResult run(const std::string& script) {
+    return run_catchlight({"tune", folder(), "--headless", "--ui-script", folder_.write("script.txt", script)});
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(TuneCli, SavesExactlyWhatWasTurnedAndOverlayDrawsWhatWasSeen) {
+  const std::string before = text_of(path("scene.toml"));
+  const CommandResult result =
+      run("wait\nseek 5\nset probe.yaw_deg 40\nset glare.strength 0.25\nset probe.ev 0.5\n"
+          "click undo\nexpect probe.ev 0\nwait\npicture " +
+          path("seen.png") + "\nsave\nquit\n");
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  const std::string after = text_of(path("scene.toml"));
+  EXPECT_THAT(after, HasSubstr("yaw_deg = 40\n"));
+  EXPECT_THAT(after, HasSubstr("[glare]\nstrength = 0.25\n"));
+  EXPECT_EQ(after.find("ev ="), std::string::npos);
+  std::istringstream lines(before);
+  for (std::string line; std::getline(lines, line);) EXPECT_THAT(after, HasSubstr(line + "\n")) << "nothing else changed";
+
+  const CommandResult drawn = run_catchlight({"overlay", folder(), "-o", path("drawn.%04d.png"), "--frames", "5:6"});
+  ASSERT_EQ(drawn.exit_code, 0) << drawn.error;
+  const cv::Mat seen = cv::imread(path("seen.png")), overlaid = cv::imread(path("drawn.0005.png"));
+  ASSERT_EQ(seen.size(), overlaid.size());
+  EXPECT_EQ(cv::norm(seen, overlaid, cv::NORM_INF), 0) << "what is seen is what is drawn";
+}
+
+TEST_F(TuneCli, ControlsAreClickedAndDragged) {
+  const CommandResult result =
+      run("click lens\nclick search\ntype glare.str\nwait\ndrag glare.strength 0.2 0.8\nwait\n"
+          "click play\nclick play\nkey home\nwait\nexpect frame 0\nkey right\nwait\nexpect frame 1\n"
+          "screenshot " +
+          path("window.png") + "\nwait\nquit\n");
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  const cv::Mat window = cv::imread(path("window.png"));
+  EXPECT_EQ(window.size(), cv::Size(1280, 720));
+  EXPECT_GT(cv::mean(window)[0], 10);
+}
+
+TEST_F(TuneCli, SaysWhereAScriptFails) {
+  const CommandResult unknown = run("wait\nclik undo\n");
+  EXPECT_EQ(unknown.exit_code, 1);
+  EXPECT_THAT(unknown.error, HasSubstr("script.txt:2: unknown command 'clik'; did you mean 'click'?"));
+  const CommandResult missing = run("click nothing of that name\n");
+  EXPECT_THAT(missing.error, HasSubstr("script.txt:1: there is no control 'nothing of that name'"));
+  const CommandResult other = run("expect probe.ev 3\n");
+  EXPECT_THAT(other.error, HasSubstr("script.txt:1: probe.ev is 0, expected 3"));
+}
+
+TEST_F(TuneCli, ClosesWhileItTracks) {
+  const CommandResult result = run("quit\n");
+  EXPECT_EQ(result.exit_code, 0) << result.error;
+}
+
+TEST_F(TuneCli, ShowsWhatIsWrongAndGoesOn) {
+  const CommandResult result =
+      run("set probe.image nowhere.exr\nwait\nexpect probe.image nowhere.exr\nclick undo\nwait\npicture " + path("p.png") +
+          "\nquit\n");
+  EXPECT_EQ(result.exit_code, 0) << result.error;
+  EXPECT_TRUE(std::filesystem::exists(path("p.png")));
+}
+
+TEST(TuneWithoutAScreen, SaysWhatToDo) {
+  const CommandResult result = run_catchlight({"tune", kRecordings + "matte"}, {{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.error, HasSubstr("no window can be opened"));
+  EXPECT_THAT(result.error, HasSubstr("--screenshot"));
+}
+
+TEST(TuneWithoutARecording, ShowsAnEmptyWindow) {
+  const TemporaryFolder folder;
+  const CommandResult result = run_catchlight({"tune", "--frames", "3", "--screenshot", folder.path("empty.png")});
+  EXPECT_EQ(result.exit_code, 0) << result.error;
+  EXPECT_FALSE(cv::imread(folder.path("empty.png")).empty());
+}
+
+}  // namespace
+}  // namespace catchlight::tests
