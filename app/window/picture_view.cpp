@@ -93,7 +93,9 @@ void PictureView::draw_split(const Place& place, const glm::vec2& size_px) {
 
 void PictureView::look_under_pointer(const DrawnFrame& frame, const Place& place) {
   pixel_text_.clear();
-  const glm::ivec2 pixel(glm::floor((vec(ImGui::GetIO().MousePos) - place.corner_px) / place.zoom));
+  const glm::vec2 pointed = (vec(ImGui::GetIO().MousePos) - place.corner_px) / place.zoom;
+  const glm::ivec2 pixel(glm::floor(pointed));
+  pointed_px_ = glm::dvec2(pointed) - 0.5;  // (0, 0) is the middle of the first pixel
   if (!ImGui::IsWindowHovered() || pixel.x < 0 || pixel.y < 0 || pixel.x >= frame.plate.width || pixel.y >= frame.plate.height)
     return;
   const std::size_t at = 3 * (static_cast<std::size_t>(pixel.y) * frame.plate.width + static_cast<std::size_t>(pixel.x));

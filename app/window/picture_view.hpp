@@ -33,6 +33,10 @@ class PictureView {
 
   /// What the pixel under the pointer holds; empty where there is none.
   const std::string& pixel_text() const { return pixel_text_; }
+  /// The place of the picture under the pointer, beside it too.
+  const glm::dvec2& pointed_px() const { return pointed_px_; }
+  /// Whether the pointer is free to take hold of what is seen: over the picture, with no edge of the split to drag.
+  bool may_take_hold() const { return !pixel_text_.empty() && view != View::split; }
 
  private:
   struct Place {
@@ -54,6 +58,7 @@ class PictureView {
   glm::vec2 moved_px_{0};
   float split_ = 0.5f;
   std::string pixel_text_;
+  glm::dvec2 pointed_px_{0};
 };
 
 }  // namespace catchlight::app

@@ -101,6 +101,7 @@ void ShotPlayer::draw(const Wish& wish) {
   session_->render(*job);
   drawn->composite = job->result.rect.empty() ? drawn->plate : rgb_of(job->image.with_composite(job->result));
   drawn->track = job->track;
+  drawn->camera = session_->camera();
   drawn->pass_times = session_->renderer().pass_times();
   drawn->draw_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   publish(std::move(drawn));

@@ -14,6 +14,7 @@
 #include "app/session/plan.hpp"
 #include "app/session/recording.hpp"
 #include "app/support/log.hpp"
+#include "catchlight/camera.hpp"
 #include "catchlight/track.hpp"
 #include "render/pass_time.hpp"
 
@@ -36,6 +37,7 @@ struct DrawnFrame {
   RgbPicture plate;
   RgbPicture composite;  ///< as `overlay` writes it
   TrackRow track;
+  CameraModel camera;
   std::vector<render::PassTime> pass_times;
   double draw_ms = 0;  ///< by the clock
 };

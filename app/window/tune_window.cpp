@@ -2,7 +2,10 @@
 
 #include <imgui.h>
 
+#include <imgui_stdlib.h>
+
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <opencv2/imgproc.hpp>
@@ -11,6 +14,7 @@
 #include "app/settings/parameters.hpp"
 #include "app/settings/scene_file_edit.hpp"
 #include "app/window/gui_keys.hpp"
+#include "app/window/overlay_command.hpp"
 #include "catchlight/error.hpp"
 #include "render/image/picture_file.hpp"
 
@@ -24,6 +28,7 @@ constexpr const char* kHelp =
     "left, right      one frame back, on\n"
     "home, end        first, last frame\n"
     "[ and ]          mark the range that plays\n"
+    "left button      moves the object; with shift turns, with ctrl scales it\n"
     "wheel            zoom; middle button moves the picture\n"
     "f and 1          the whole picture, pixel by pixel\n"
     "a and b          flip to settings A, B; with shift, keep them\n"
@@ -57,6 +62,7 @@ void TuneWindow::open(const std::string& location) {
   Recording recording = open_recording(location, overrides_);  // where this throws, all is as before
   player_.reset();
   recording_ = recording;
+  location_ = location;
   history_.emplace(recording.scene);
   playhead_ = {};
   shown_ = nullptr;
@@ -180,15 +186,78 @@ void TuneWindow::draw_picture() {
         "Drop a recording here: a folder with footage and scene.toml, or a scene file. Examples are in recordings/.");
   else
     picture_view_.draw(shown_, items_);
+  drag_object();
+}
+
+/// The left button takes hold of the first object: it moves, with shift it turns, with ctrl it grows.
+void TuneWindow::drag_object() {
+  if (!ImGui::IsMouseDown(ImGuiMouseButton_Left) && drag_) {
+    drag_.reset();
+    history_->end_gesture();
+  }
+  if (!shown_ || !shown_->track.found || history_->now().objects.empty()) return;
+  const auto place_m = seen_place_m(shown_->camera, shown_->track.camera_from_tag, picture_view_.pointed_px());
+  if (!place_m) return;
+  const ImGuiIO& io = ImGui::GetIO();
+  if (!drag_ && picture_view_.may_take_hold() && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
+    if (history_->now().objects[0].matrix) {
+      message_ = "the scene file places the object by a matrix: give it translation_m, rotation_deg and scale to drag it";
+      return;
+    }
+    drag_kind_ = io.KeyShift ? DragKind::turn : io.KeyCtrl ? DragKind::scale : DragKind::move;
+    history_->end_gesture();
+    drag_.emplace(history_->now(), 0, drag_kind_, *place_m);
+  }
+  if (!drag_) return;
+  if (io.MouseDelta.x != 0 || io.MouseDelta.y != 0) history_->change(drag_->at(*place_m), drag_->key());
+  ImGui::SetTooltip("%s", ObjectDrag::text(history_->now(), 0, drag_kind_).c_str());
+}
+
+/// Draws the marked range into a file, by another run of this program.
+void TuneWindow::draw_render() {
+  if (!ImGui::CollapsingHeader("render")) return items_.note("render");
+  items_.note("render");
+  ImGui::SetNextItemWidth(-1);
+  ImGui::InputText("##output", &output_);
+  items_.note("output");
+  const std::int64_t first = shown_ ? shown_->number - shown_->position : 0;
+  const FrameRange all{}, marked{first + playhead_.begin(), first + playhead_.end()};
+  const bool is_all = playhead_.begin() == 0 && playhead_.end() == playhead_.frame_count();
+  const std::vector<std::string> arguments =
+      overlay_arguments(location_, overrides_, history_->file(), history_->now(), is_all ? all : marked, output_);
+  const std::string command = "catchlight " + shell_text(arguments);
+  ImGui::TextWrapped("%s", command.c_str());
+  if (ImGui::Button("copy the command")) ImGui::SetClipboardText(command.c_str());
+  items_.note("copy the command");
+  ImGui::SameLine();
+  ImGui::BeginDisabled(render_ && !render_->is_over());
+  if (ImGui::Button("draw the file")) render_ = std::make_unique<BackgroundRun>(arguments);
+  items_.note("draw the file");
+  ImGui::EndDisabled();
+  if (render_) ImGui::TextWrapped("%s", render_->has_succeeded() ? ("made " + output_).c_str() : render_->last_line().c_str());
+}
+
+/// A probe or a model becomes the scene's; all else is opened.
+void TuneWindow::take_dropped(const std::string& file) {
+  std::string extension = std::filesystem::path(file).extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  const auto is_one_of = [&](std::initializer_list<const char*> known) {
+    return std::ranges::any_of(known, [&](const char* name) { return extension == name; });
+  };
+  try {
+    if (history_ && is_one_of({".exr", ".hdr", ".pfm"})) return set("probe.image", file);
+    if (history_ && is_one_of({".glb", ".gltf", ".obj", ".ply"})) return set("object.mesh", file);
+    open(extension == ".toml" ? std::filesystem::path(file).parent_path().string() : file);
+  } catch (const Error& error) {
+    message_ = error.what();
+  }
 }
 
 void TuneWindow::draw_side() {
   if (history_) controls_.draw(*history_, items_);
-  if (!player_ || !ImGui::CollapsingHeader("plan")) return;
-  const PlayerStatus status = player_->status();
-  for (const PlanEntry& entry : status.plan)
-    ImGui::TextWrapped("%s = %s: %s", entry.choice.c_str(), entry.value.c_str(), entry.reason.c_str());
-  for (const std::string& warning : status.warnings) ImGui::TextWrapped("warning: %s", warning.c_str());
+  if (!player_) return;
+  draw_render();
+  panels_.draw(shown_, player_->status(), items_);
 }
 
 void TuneWindow::draw_status() {
@@ -244,11 +313,7 @@ void TuneWindow::take_screenshot() {
 void TuneWindow::frame() {
   surface_.begin_frame();
   items_.begin_frame();
-  for (const std::string& file : surface_.take_dropped_files()) try {
-      open(file);
-    } catch (const Error& error) {
-      message_ = error.what();
-    }
+  for (const std::string& file : surface_.take_dropped_files()) take_dropped(file);
   take_keys();
   ask_player();
   const ImVec2 size = ImGui::GetIO().DisplaySize;

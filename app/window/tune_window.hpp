@@ -7,8 +7,11 @@
 #include <string>
 
 #include "app/session/recording.hpp"
+#include "app/window/background_run.hpp"
 #include "app/window/gui_items.hpp"
 #include "app/window/gui_surface.hpp"
+#include "app/window/object_drag.hpp"
+#include "app/window/panels.hpp"
 #include "app/window/parameter_controls.hpp"
 #include "app/window/picture_view.hpp"
 #include "app/window/settings_history.hpp"
@@ -42,6 +45,9 @@ class TuneWindow final : public ScriptTarget {
 
  private:
   void ask_player();
+  void take_dropped(const std::string& file);
+  void drag_object();
+  void draw_render();
   void take_keys();
   void draw_top();
   void draw_picture();
@@ -63,7 +69,12 @@ class TuneWindow final : public ScriptTarget {
   Playhead playhead_;
   PictureView picture_view_;
   ParameterControls controls_;
+  Panels panels_;
   GuiItems items_;
+  std::optional<ObjectDrag> drag_;
+  DragKind drag_kind_ = DragKind::move;
+  std::unique_ptr<BackgroundRun> render_;
+  std::string location_, output_ = "comp.mp4";
   std::string message_, screenshot_;
   bool is_done_ = false, asks_to_quit_ = false, shows_help_ = false;
 };

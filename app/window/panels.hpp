@@ -1,0 +1,28 @@
+// What the window tells about a frame in figures.
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "app/window/gui_items.hpp"
+#include "app/window/shot_player.hpp"
+
+namespace catchlight::app {
+
+/// How often each 8-bit code is in a picture, a channel each.
+struct Histogram {
+  std::array<std::array<float, 256>, 3> counts{};
+};
+Histogram histogram_of(const RgbPicture& picture);
+
+/// Draws the histogram of the composite and the times of all passes into the current ImGui window.
+class Panels {
+ public:
+  void draw(const std::shared_ptr<const DrawnFrame>& frame, const PlayerStatus& status, GuiItems& items);
+
+ private:
+  std::shared_ptr<const DrawnFrame> counted_;
+  Histogram histogram_;
+};
+
+}  // namespace catchlight::app
