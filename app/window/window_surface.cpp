@@ -43,14 +43,14 @@ class WindowSurface final : public GuiSurface {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-    window_ = glfwCreateWindow(size_px.x, size_px.y, title.c_str(), nullptr, nullptr);
+    window_.reset(glfwCreateWindow(size_px.x, size_px.y, title.c_str(), nullptr, nullptr));
     if (!window_)
       throw Error("no window with OpenGL 4.5: " + last_glfw_error() +
                   "; install Mesa (libgl1, libgl1-mesa-dri) or the graphics card's driver");
-    glfwMakeContextCurrent(window_);
+    glfwMakeContextCurrent(window_.get());
     glfwSwapInterval(1);
-    glfwSetWindowUserPointer(window_, this);
-    glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
+    glfwSetWindowUserPointer(window_.get(), this);
+    glfwSetDropCallback(window_.get(), [](GLFWwindow* window, int count, const char** paths) {
       auto* self = static_cast<WindowSurface*>(glfwGetWindowUserPointer(window));
       self->dropped_.insert(self->dropped_.end(), paths, paths + count);
     });
@@ -58,23 +58,22 @@ class WindowSurface final : public GuiSurface {
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
     float across = 1, down = 1;
-    glfwGetWindowContentScale(window_, &across, &down);
+    glfwGetWindowContentScale(window_.get(), &across, &down);
     scale_ = across;
     set_gui_style(scale_);
-    ImGui_ImplGlfw_InitForOpenGL(window_, true);
+    ImGui_ImplGlfw_InitForOpenGL(window_.get(), true);
     ImGui_ImplOpenGL3_Init("#version 450");
   }
   ~WindowSurface() override {
     ImGui_ImplOpenGL3_Shutdown();
     ImGui_ImplGlfw_Shutdown();
     ImGui::DestroyContext();
-    glfwDestroyWindow(window_);
   }
   WindowSurface(const WindowSurface&) = delete;
   WindowSurface& operator=(const WindowSurface&) = delete;
 
   void begin_frame() override {
-    glfwMakeContextCurrent(window_);
+    glfwMakeContextCurrent(window_.get());
     glfwPollEvents();
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
@@ -83,22 +82,25 @@ class WindowSurface final : public GuiSurface {
 
   void end_frame() override {
     glm::ivec2 size_px(0);
-    glfwGetFramebufferSize(window_, &size_px.x, &size_px.y);
+    glfwGetFramebufferSize(window_.get(), &size_px.x, &size_px.y);
     picture_.draw(glm::max(size_px, 1));
     picture_.show();
-    glfwSwapBuffers(window_);
+    glfwSwapBuffers(window_.get());
   }
 
-  bool is_closed() const override { return glfwWindowShouldClose(window_) != 0; }
-  void keep_open() override { glfwSetWindowShouldClose(window_, GLFW_FALSE); }
+  bool is_closed() const override { return glfwWindowShouldClose(window_.get()) != 0; }
+  void keep_open() override { glfwSetWindowShouldClose(window_.get(), GLFW_FALSE); }
   std::vector<std::string> take_dropped_files() override { return std::exchange(dropped_, {}); }
-  void set_title(const std::string& title) override { glfwSetWindowTitle(window_, title.c_str()); }
+  void set_title(const std::string& title) override { glfwSetWindowTitle(window_.get(), title.c_str()); }
   float scale() const override { return scale_; }
   Picture picture() const override { return picture_.read(); }
 
  private:
   Glfw glfw_;
-  GLFWwindow* window_ = nullptr;
+  struct Destroy {
+    void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
+  };
+  std::unique_ptr<GLFWwindow, Destroy> window_;  ///< goes after what is drawn in it
   float scale_ = 1;
   std::vector<std::string> dropped_;
   GuiPicture picture_;
