@@ -1,6 +1,7 @@
 #include "app/settings/scene_file_edit.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <sstream>
@@ -158,15 +159,25 @@ void SceneText::erase(const Key& key) {
   replace({begin, line_start(whole.source().end.line + 1)}, "");
 }
 
-std::string quoted(const std::string& text) {
-  std::ostringstream out;
-  out << toml::value<std::string>(text);
-  return out.str();
+std::string toml_text(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) result += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+  return result + '"';
+}
+
+/// Files beside the scene file or below it are named from there, so that the folder can be moved.
+std::string path_text(const SceneSettings& settings, const std::string& text) {
+  const std::filesystem::path path(text);
+  if (path.is_relative() || settings.folder.empty()) return text;
+  const std::filesystem::path folder = std::filesystem::absolute(settings.folder).lexically_normal();
+  const std::string from_folder = path.lexically_normal().lexically_relative(folder).string();
+  return from_folder.empty() || from_folder.starts_with("..") ? text : from_folder;
 }
 
 /// A value as TOML writes it.
 std::string literal_of(const SceneSettings& settings, const Parameter& parameter, std::size_t index) {
-  const std::string text = parameter_text(settings, parameter, index);
+  std::string text = parameter_text(settings, parameter, index);
+  if (std::holds_alternative<PathKind>(parameter.kind)) text = path_text(settings, text);
   if (std::holds_alternative<VectorKind>(parameter.kind)) {
     std::string list;
     for (const std::string& component : split(text, ',')) list += (list.empty() ? "" : ", ") + component;
@@ -174,7 +185,7 @@ std::string literal_of(const SceneSettings& settings, const Parameter& parameter
   }
   const bool is_word = std::holds_alternative<PathKind>(parameter.kind) || std::holds_alternative<WordKind>(parameter.kind) ||
                        std::holds_alternative<ChoiceKind>(parameter.kind) || text == "auto";
-  return is_word ? quoted(text) : text;
+  return is_word ? toml_text(text) : text;
 }
 
 }  // namespace
@@ -187,7 +198,9 @@ std::string edited_scene_text(const std::string& text, const std::string& path, 
   for (const Parameter& parameter : parameters())
     for (std::size_t i = 0; i < element_count(after, parameter); ++i) {
       const Key key{split(parameter.key, '.'), i};
-      const bool was_given = before.is_by_hand(parameter.key), is_given = after.is_by_hand(parameter.key);
+      // Of several elements it is not known which were given: those that are as before stay as they are.
+      const bool is_one = element_count(after, parameter) == 1;
+      const bool was_given = !is_one || before.is_by_hand(parameter.key), is_given = !is_one || after.is_by_hand(parameter.key);
       if (was_given && !is_given) scene.erase(key);
       if (is_given && (!was_given || parameter_text(before, parameter, i) != parameter_text(after, parameter, i)))
         scene.put(key, literal_of(after, parameter, i));

@@ -40,7 +40,7 @@ std::vector<std::string> overlay_arguments(const std::string& location, const Re
     const std::size_t count = element_count(now, parameter);
     for (std::size_t i = 0; i < count; ++i) {
       const bool is_changed = parameter_text(file, parameter, i) != parameter_text(now, parameter, i) ||
-                              (now.is_by_hand(parameter.key) && !file.is_by_hand(parameter.key));
+                              (count == 1 && now.is_by_hand(parameter.key) && !file.is_by_hand(parameter.key));
       if (!is_changed) continue;
       const bool names_a_file = std::holds_alternative<PathKind>(parameter.kind);
       arguments.push_back(option_of(parameter, i, count));

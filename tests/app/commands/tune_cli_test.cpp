@@ -44,13 +44,13 @@ class TuneCli : public ::testing::Test {
 TEST_F(TuneCli, SavesExactlyWhatWasTurnedAndOverlayDrawsWhatWasSeen) {
   const std::string before = text_of(path("scene.toml"));
   const CommandResult result =
-      run("wait\nseek 5\nset probe.yaw_deg 40\nset glare.strength 0.25\nset probe.ev 0.5\n"
+      run("wait\nseek 5\nset probe.yaw_deg 40\nset glare.bloom_strength 0.25\nset probe.ev 0.5\n"
           "click undo\nexpect probe.ev 0\nwait\npicture " +
           path("seen.png") + "\nsave\nquit\n");
   ASSERT_EQ(result.exit_code, 0) << result.error;
   const std::string after = text_of(path("scene.toml"));
   EXPECT_THAT(after, HasSubstr("yaw_deg = 40\n"));
-  EXPECT_THAT(after, HasSubstr("[glare]\nstrength = 0.25\n"));
+  EXPECT_THAT(after, HasSubstr("[glare]\nbloom_strength = 0.25\n"));
   EXPECT_EQ(after.find("ev ="), std::string::npos);
   std::istringstream lines(before);
   for (std::string line; std::getline(lines, line);) EXPECT_THAT(after, HasSubstr(line + "\n")) << "nothing else changed";
@@ -64,7 +64,7 @@ TEST_F(TuneCli, SavesExactlyWhatWasTurnedAndOverlayDrawsWhatWasSeen) {
 
 TEST_F(TuneCli, ControlsAreClickedAndDragged) {
   const CommandResult result =
-      run("click lens\nclick search\ntype glare.str\nwait\ndrag glare.strength 0.2 0.8\nwait\n"
+      run("click lens\nclick search\ntype glare.bloom\nwait\ndrag glare.bloom_strength 0.2 0.8\nwait\n"
           "click play\nclick play\nkey home\nwait\nexpect frame 0\nkey right\nwait\nexpect frame 1\n"
           "screenshot " +
           path("window.png") + "\nwait\nquit\n");

@@ -25,7 +25,11 @@ using tests::TemporaryFolder;
 std::string edited(const std::string& text, const std::vector<std::pair<std::string, std::string>>& changes) {
   const SceneSettings before = read_scene(text);
   SceneSettings after = before;
-  for (const auto& [key, value] : changes) set_parameter_from_text(after, key, value);
+  for (const auto& [key, value] : changes)
+    if (const Parameter* parameter = find_parameter(key); parameter && std::holds_alternative<PathKind>(parameter->kind))
+      set_parameter(after, *parameter, value);  // relative to the scene file, as in it
+    else
+      set_parameter_from_text(after, key, value);
   const std::string result = edited_scene_text(text, "scene.toml", before, after);
   const SceneSettings again = read_scene(result);
   for (const Parameter& parameter : parameters())
@@ -48,7 +52,7 @@ mesh = "ring.glb" # größer als der Würfel
 tag_from_object = { rotation_deg = [90, 0, 0] }
 
 [glare]
-strength = 0.5
+bloom_strength = 0.5
 )";
 
 TEST(EditedSceneText, IsTheSameWhereNothingChanged) {
@@ -74,7 +78,7 @@ TEST(EditedSceneText, PutsANewKeyAtTheEndOfItsSection) {
 }
 
 TEST(EditedSceneText, MakesASectionThatIsNotThere) {
-  EXPECT_THAT(edited(kScene, {{"probe.yaw_deg", "30"}}), HasSubstr("strength = 0.5\n\n[probe]\nyaw_deg = 30\n"));
+  EXPECT_THAT(edited(kScene, {{"probe.yaw_deg", "30"}}), HasSubstr("bloom_strength = 0.5\n\n[probe]\nyaw_deg = 30\n"));
   EXPECT_EQ(edited("", {{"exposure.ev", "-1"}}), "[exposure]\nev = -1\n");
   EXPECT_EQ(edited("[tag]\nid = 3\n", {{"look", "classic"}}).substr(0, 16), "look = \"classic\"");
 }
@@ -89,8 +93,9 @@ TEST(EditedSceneText, WritesEachKindAsTomlDoes) {
 TEST(EditedSceneText, TakesOutWhatIsLeftToTheProgram) {
   const SceneSettings before = read_scene(kScene);
   SceneSettings after = before;
-  set_parameter_from_text(after, "glare.strength", parameter_text(SceneSettings(), *find_parameter("glare.strength")));
-  after.by_hand.erase("glare.strength");
+  set_parameter_from_text(after, "glare.bloom_strength",
+                          parameter_text(SceneSettings(), *find_parameter("glare.bloom_strength")));
+  after.by_hand.erase("glare.bloom_strength");
   const std::string text = edited_scene_text(kScene, "scene.toml", before, after);
   EXPECT_EQ(text.find("strength"), std::string::npos);
   EXPECT_THAT(text, HasSubstr("[glare]\n"));
@@ -98,7 +103,17 @@ TEST(EditedSceneText, TakesOutWhatIsLeftToTheProgram) {
 
 TEST(EditedSceneText, TakesTheRightOneOfSeveralObjects) {
   const std::string two = "[[object]]\nmesh = \"a.glb\"\n\n[[object]]\nmesh = \"b.glb\"\n";
-  EXPECT_EQ(edited(two, {{"object[1].mesh", "c.glb"}}), "[[object]]\nmesh = \"a.glb\"\n\n[[object]]\nmesh = \"c.glb\"\n");
+  EXPECT_EQ(edited(two, {{"object[1].tag_from_object.scale", "2"}}), two + "tag_from_object = { scale = 2 }\n");
+}
+
+TEST(EditedSceneText, NamesFilesFromTheScenesFolder) {
+  SceneSettings before;
+  before.folder = "/shots/one";
+  SceneSettings after = before;
+  set_parameter(after, *find_parameter("probe.image"), std::string("/shots/one/light/sky.exr"));
+  EXPECT_EQ(edited_scene_text("", "s.toml", before, after), "[probe]\nimage = \"light/sky.exr\"\n");
+  set_parameter(after, *find_parameter("probe.image"), std::string("/shots/two/sky.exr"));
+  EXPECT_EQ(edited_scene_text("", "s.toml", before, after), "[probe]\nimage = \"/shots/two/sky.exr\"\n");
 }
 
 TEST(EditedSceneText, OfAnyChangeIsReadBackAsThatChange) {

@@ -23,7 +23,10 @@ CameraModel camera(double k1) {
 
 SceneSettings with_object() {
   SceneSettings settings;
-  settings.objects.push_back({.mesh = "a.glb", .translation_m = {0.01, 0.02, 0.03}, .rotation_deg = {90, 0, 20}, .scale = 2});
+  settings.objects.emplace_back();
+  settings.objects[0].translation_m = {0.01, 0.02, 0.03};
+  settings.objects[0].rotation_deg = {90, 0, 20};
+  settings.objects[0].scale = 2;
   return settings;
 }
 

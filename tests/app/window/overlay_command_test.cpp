@@ -16,10 +16,12 @@ TEST(OverlayArguments, AreTheRecordingWhereNothingWasTurned) {
 
 TEST(OverlayArguments, HoldWhatWasTurnedAndTheRange) {
   SceneSettings file, now;
+  RecordingOverrides overrides;
+  overrides.fov_deg = 60;
   for (SceneSettings* settings : {&file, &now}) settings->objects.resize(2);
   set_parameter_from_text(now, "probe.yaw_deg", "40");
   set_parameter_from_text(now, "object[1].tag_from_object.scale", "2");
-  EXPECT_THAT(overlay_arguments("shot", {.fov_deg = 60}, file, now, {3, 9}, "a.mp4"),
+  EXPECT_THAT(overlay_arguments("shot", overrides, file, now, {3, 9}, "a.mp4"),
               ElementsAre("overlay", "shot", "-o", "a.mp4", "--fov", "60", "--object[1].tag_from_object.scale", "2",
                           "--probe.yaw_deg", "40", "--frames", "3:9"));
 }

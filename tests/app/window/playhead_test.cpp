@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
+#include "app/window/playhead.hpp"
 
-#include "app/window/transport.hpp"
+#include <gtest/gtest.h>
 
 namespace catchlight::app {
 namespace {
