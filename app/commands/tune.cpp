@@ -30,7 +30,8 @@ glm::ivec2 size_of(const std::string& text) {
 
 /// Frames until `--frames` have been drawn and everything asked for is shown, or until the script has ended.
 void run_without_person(const Options& options, TuneWindow& window, std::optional<UiScript>& script) {
-  for (int frame = 0; !window.is_done(); ++frame) {
+  window.frame();  // now there are controls to click
+  for (int frame = 1; !window.is_done(); ++frame) {
     if (script) script->before_frame(window);
     window.frame();
     const bool is_over = script ? script->is_done() : frame + 1 >= std::max(options.frames, 1);

@@ -55,7 +55,7 @@ TEST_F(TuneCli, SavesExactlyWhatWasTurnedAndOverlayDrawsWhatWasSeen) {
   std::istringstream lines(before);
   for (std::string line; std::getline(lines, line);) EXPECT_THAT(after, HasSubstr(line + "\n")) << "nothing else changed";
 
-  const CommandResult drawn = run_catchlight({"overlay", folder(), "-o", path("drawn.%04d.png"), "--frames", "5:6"});
+  const CommandResult drawn = run_catchlight({"overlay", folder(), "-o", path("drawn.%04d.png")});
   ASSERT_EQ(drawn.exit_code, 0) << drawn.error;
   const cv::Mat seen = cv::imread(path("seen.png")), overlaid = cv::imread(path("drawn.0005.png"));
   ASSERT_EQ(seen.size(), overlaid.size());
@@ -91,7 +91,7 @@ TEST_F(TuneCli, ClosesWhileItTracks) {
 
 TEST_F(TuneCli, ShowsWhatIsWrongAndGoesOn) {
   const CommandResult result =
-      run("set probe.image nowhere.exr\nwait\nexpect probe.image nowhere.exr\nclick undo\nwait\npicture " + path("p.png") +
+      run("set probe.image nowhere.exr\nwait\nclick undo\nwait\npicture " + path("p.png") +
           "\nquit\n");
   EXPECT_EQ(result.exit_code, 0) << result.error;
   EXPECT_TRUE(std::filesystem::exists(path("p.png")));
