@@ -3,9 +3,12 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+
+#include "catchlight/color.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -36,6 +39,28 @@ RgbPicture difference(const RgbPicture& a, const RgbPicture& b, float gain) {
   RgbPicture result{a.width, a.height, std::vector<unsigned char>(a.rgb.size())};
   for (std::size_t i = 0; i < a.rgb.size(); ++i)
     result.rgb[i] = static_cast<unsigned char>(std::clamp(128 + gain * (float{1} * a.rgb[i] - b.rgb[i]), 0.0f, 255.0f));
+  return result;
+}
+
+/// Stops below and above mid grey in false colours: dark ones violet to blue, mid grey grey, bright ones yellow to red; what is
+/// clipped white, what is crushed black.
+RgbPicture zones(const RgbPicture& picture) {
+  static constexpr unsigned char kColors[9][3] = {{70, 0, 110},   {50, 30, 170},  {30, 90, 200},  {30, 150, 140}, {120, 120, 120},
+                                                  {110, 170, 60}, {220, 210, 50}, {240, 140, 30}, {230, 50, 40}};
+  static const std::array<double, 256> light_of_code = [] {
+    std::array<double, 256> light{};
+    for (std::size_t code = 0; code < 256; ++code) light[code] = linear_from_srgb(static_cast<double>(code) / 255);
+    return light;
+  }();
+  RgbPicture result{picture.width, picture.height, std::vector<unsigned char>(picture.rgb.size())};
+  for (std::size_t i = 0; i + 2 < picture.rgb.size(); i += 3) {
+    const unsigned char* code = &picture.rgb[i];
+    const int brightest = std::max({code[0], code[1], code[2]});
+    const double light = 0.2126 * light_of_code[code[0]] + 0.7152 * light_of_code[code[1]] + 0.0722 * light_of_code[code[2]];
+    const auto stop = static_cast<int>(std::lround(std::log2(std::max(light, 1e-6) / 0.18)));
+    const unsigned char* color = kColors[std::clamp(stop, -4, 4) + 4];
+    for (std::size_t c = 0; c < 3; ++c) result.rgb[i + c] = brightest >= 254 ? 255 : brightest <= 1 ? 0 : color[c];
+  }
   return result;
 }
 
@@ -73,6 +98,8 @@ void PictureView::upload(const DrawnFrame& frame) {
   }
   if (view == View::difference)
     app::upload(first_, difference(composite, plate, gain));
+  else if (view == View::zones)
+    app::upload(first_, zones(composite));
   else
     app::upload(first_, view == View::plate ? plate : composite);
   if (view == View::split || view == View::flicker) app::upload(second_, plate);

@@ -12,9 +12,9 @@
 
 namespace catchlight::app {
 
-enum class View { composite, plate, split, flicker, difference };
+enum class View { composite, plate, split, flicker, difference, zones };
 constexpr auto names_of(View) {
-  return std::array{"composite", "plate", "split", "flicker", "difference"};
+  return std::array{"composite", "plate", "split", "flicker", "difference", "zones"};
 }
 
 class PictureView {

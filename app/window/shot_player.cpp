@@ -1,5 +1,6 @@
 #include "app/window/shot_player.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -18,6 +19,12 @@ RgbPicture rgb_of(const Frame& frame) {
   return picture;
 }
 
+SceneSettings quicker(SceneSettings settings) {
+  settings.quality.samples = std::min(settings.quality.samples, 2);
+  settings.quality.reflection_rays = std::min(settings.quality.reflection_rays, 8);
+  return settings;
+}
+
 }  // namespace
 
 ShotPlayer::ShotPlayer(Recording recording) : recording_(std::move(recording)) {
@@ -27,9 +34,9 @@ ShotPlayer::ShotPlayer(Recording recording) : recording_(std::move(recording)) {
 
 ShotPlayer::~ShotPlayer() = default;
 
-std::uint64_t ShotPlayer::wish(const SceneSettings& settings, std::int64_t position) {
+std::uint64_t ShotPlayer::wish(const SceneSettings& settings, std::int64_t position, Rung rung) {
   const std::lock_guard lock(mutex_);
-  next_ = Wish{++last_wish_, settings, position};
+  next_ = Wish{++last_wish_, settings, position, rung};
   wished_.notify_one();
   return last_wish_;
 }
@@ -89,13 +96,13 @@ void ShotPlayer::open(const std::stop_token& stop) {
 
 void ShotPlayer::draw(const Wish& wish) {
   const auto start = std::chrono::steady_clock::now();
-  session_->apply(wish.settings);
+  session_->apply(wish.rung == Rung::full ? wish.settings : quicker(wish.settings));
   session_->seek(wish.position);
   std::optional<FrameJob> job = session_->decode();
   if (!job) return;
   session_->track(*job);
   auto drawn = std::make_shared<DrawnFrame>();
-  drawn->position = wish.position, drawn->wish = wish.number;
+  drawn->position = wish.position, drawn->wish = wish.number, drawn->rung = wish.rung;
   drawn->number = job->image.number(), drawn->time_s = job->image.time_s();
   drawn->plate = rgb_of(job->image);
   session_->render(*job);

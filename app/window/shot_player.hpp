@@ -1,7 +1,7 @@
 // Draws the frames of a shot that a person looks at, on a thread of its own: the newest wish counts.
 #pragma once
 
-#include <atomic>
+#include <array>
 #include <condition_variable>
 #include <cstdint>
 #include <memory>
@@ -22,6 +22,15 @@ namespace catchlight::app {
 
 class Session;
 
+/// How well a frame is drawn.
+enum class Rung {
+  full,  ///< as `overlay` draws it
+  fast   ///< with fewer rays and samples: while something moves that would not be smooth otherwise
+};
+constexpr auto names_of(Rung) {
+  return std::array{"full quality", "fewer rays and samples while it moves"};
+}
+
 /// 8-bit RGB, rows from the top.
 struct RgbPicture {
   int width = 0, height = 0;
@@ -33,6 +42,7 @@ struct DrawnFrame {
   std::int64_t position = 0;  ///< among the shot's frames, from 0
   std::int64_t number = 0;    ///< the frame's own
   double time_s = 0;
+  Rung rung = Rung::full;
   std::uint64_t wish = 0;  ///< the wish that it fulfils; 0: the footage alone, before anything could be drawn
   RgbPicture plate;
   RgbPicture composite;  ///< as `overlay` writes it
@@ -64,7 +74,7 @@ class ShotPlayer {
   ShotPlayer& operator=(const ShotPlayer&) = delete;
 
   /// Asks for a frame under these settings. What was asked for before and has not begun is left out. The number of the wish.
-  std::uint64_t wish(const SceneSettings& settings, std::int64_t position);
+  std::uint64_t wish(const SceneSettings& settings, std::int64_t position, Rung rung = Rung::full);
 
   /// The newest frame drawn; null before the first.
   std::shared_ptr<const DrawnFrame> newest() const;
@@ -79,6 +89,7 @@ class ShotPlayer {
     std::uint64_t number = 0;
     SceneSettings settings;
     std::int64_t position = 0;
+    Rung rung = Rung::full;
   };
 
   void run(const std::stop_token& stop);

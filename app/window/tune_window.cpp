@@ -111,9 +111,17 @@ void TuneWindow::save(const std::string& path) {
 }
 
 bool TuneWindow::is_idle() const {
-  const bool asks_nothing_new = !player_ || (wished_position_ == playhead_.position() && wished_settings_ && player_->is_idle() &&
-                                             costs_of_change(*wished_settings_, history_->now()).empty());
+  const bool asks_nothing_new =
+      !player_ || (wished_position_ == playhead_.position() && wished_rung_ == rung() && wished_settings_ && player_->is_idle() &&
+                   costs_of_change(*wished_settings_, history_->now()).empty());
   return asks_nothing_new && screenshot_.empty() && !playhead_.is_playing() && (!player_ || shown_ == player_->newest());
+}
+
+/// Fewer rays and samples where full quality could not follow a hand, or the footage.
+Rung TuneWindow::rung() const {
+  constexpr double kSmooth_ms = 1000.0 / 15;
+  const bool moves = playhead_.is_playing() || drag_ || ImGui::IsAnyItemActive();
+  return moves && full_ms_ > kSmooth_ms ? Rung::fast : Rung::full;
 }
 
 /// While the footage plays, the next frame is asked for when the last one came: what cannot be drawn in time is left out.
@@ -124,12 +132,18 @@ void TuneWindow::ask_player() {
   playhead_.advance(ImGui::GetIO().DeltaTime, status.frame_rate);
   shown_ = player_->newest();
   if (playhead_.is_playing() && !player_->is_idle()) return;
-  const bool is_new = wished_position_ != playhead_.position() || !wished_settings_ ||
+  if (shown_ && shown_->wish != 0 && shown_->rung == Rung::full) {
+    full_ms_ = 0;
+    for (const render::PassTime& pass : shown_->pass_times) full_ms_ += pass.ms;
+  }
+  const Rung wanted = rung();
+  const bool is_new = wished_position_ != playhead_.position() || wished_rung_ != wanted || !wished_settings_ ||
                       !costs_of_change(*wished_settings_, history_->now()).empty();
   if (!is_new) return;
   wished_position_ = playhead_.position();
+  wished_rung_ = wanted;
   wished_settings_ = history_->now();
-  player_->wish(*wished_settings_, wished_position_);
+  player_->wish(*wished_settings_, wished_position_, wanted);
 }
 
 void TuneWindow::take_keys() {
@@ -267,9 +281,8 @@ void TuneWindow::draw_status() {
   if (!player_->is_idle() && !status.stage.empty())
     return ImGui::ProgressBar(static_cast<float>(std::min(status.share, 1.0)), {200 * surface_.scale(), 0}, status.stage.c_str());
   if (!shown_) return;
-  std::string text = shown_->wish == 0
-                         ? "the footage alone"
-                         : std::string("full quality, ") + std::to_string(static_cast<int>(shown_->draw_ms)) + " ms";
+  std::string text = shown_->wish == 0 ? "the footage alone"
+                                       : name_of(shown_->rung) + ", " + std::to_string(static_cast<int>(shown_->draw_ms)) + " ms";
   if (shown_->wish != 0 && !shown_->track.found) text += "; no tag in this frame";
   if (!player_->is_idle()) text += "; drawing …";
   ImGui::TextUnformatted(text.c_str());

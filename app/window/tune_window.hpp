@@ -45,6 +45,7 @@ class TuneWindow final : public ScriptTarget {
 
  private:
   void ask_player();
+  Rung rung() const;
   void take_dropped(const std::string& file);
   void drag_object();
   void draw_render();
@@ -66,6 +67,8 @@ class TuneWindow final : public ScriptTarget {
   std::shared_ptr<const DrawnFrame> shown_;
   std::optional<SceneSettings> wished_settings_;
   std::int64_t wished_position_ = -1;
+  Rung wished_rung_ = Rung::full;
+  double full_ms_ = 0;  ///< what a frame of full quality took to draw
   Playhead playhead_;
   PictureView picture_view_;
   ParameterControls controls_;
