@@ -91,22 +91,24 @@ void PictureView::take_input(const Place& place, const glm::vec2& size_px) {
 
 void PictureView::upload(const DrawnFrame& frame) {
   const RgbPicture &plate = frame.plate, &composite = frame.composite;
+  const bool has_truth = !frame.truth.rgb.empty();
+  const RgbPicture& other = against_truth && has_truth ? frame.truth : plate;
   if (width_ != plate.width || height_ != plate.height) {
     width_ = plate.width, height_ = plate.height;
     first_ = render::make_texture_2d("picture", GL_RGB8, width_, height_, GL_LINEAR);
     second_ = render::make_texture_2d("beside it", GL_RGB8, width_, height_, GL_LINEAR);
   }
   if (view == View::difference)
-    app::upload(first_, difference(composite, plate, gain));
+    app::upload(first_, difference(composite, other, gain));
   else if (view == View::zones)
     app::upload(first_, zones(composite));
   else
-    app::upload(first_, view == View::plate ? plate : composite);
-  if (view == View::split || view == View::flicker) app::upload(second_, plate);
-  uploaded_view_ = view, uploaded_gain_ = gain;
+    app::upload(first_, view == View::plate ? plate : view == View::truth && has_truth ? frame.truth : composite);
+  if (view == View::split || view == View::flicker) app::upload(second_, other);
+  uploaded_view_ = view, uploaded_gain_ = gain, uploaded_truth_ = against_truth;
 }
 
-/// The plate left of an edge that can be dragged, the composite right of it.
+/// The plate, or the truth, left of an edge that can be dragged, the composite right of it.
 void PictureView::draw_split(const Place& place, const glm::vec2& size_px) {
   const glm::vec2 size = place.zoom * size_px;
   const float edge = place.corner_px.x + split_ * size.x;
@@ -135,7 +137,7 @@ void PictureView::look_under_pointer(const DrawnFrame& frame, const Place& place
 
 void PictureView::draw(const std::shared_ptr<const DrawnFrame>& frame, GuiItems& items) {
   if (!frame) return ImGui::TextUnformatted("Opening the footage …");
-  if (frame != shown_ || uploaded_view_ != view || uploaded_gain_ != gain) upload(*frame);
+  if (frame != shown_ || uploaded_view_ != view || uploaded_gain_ != gain || uploaded_truth_ != against_truth) upload(*frame);
   shown_ = frame;
   const glm::vec2 size(width_, height_);
   take_input(place(*frame), size);

@@ -12,15 +12,16 @@
 
 namespace catchlight::app {
 
-enum class View { composite, plate, split, flicker, difference, zones };
+enum class View { composite, plate, truth, split, flicker, difference, zones };
 constexpr auto names_of(View) {
-  return std::array{"composite", "plate", "split", "flicker", "difference", "zones"};
+  return std::array{"composite", "plate", "truth", "split", "flicker", "difference", "zones"};
 }
 
 class PictureView {
  public:
   View view = View::composite;
-  float gain = 8;  ///< of the difference
+  float gain = 8;              ///< of the difference
+  bool against_truth = false;  ///< the composite is held against the truth instead of the plate, where there is one
 
   /// Draws the frame into the current ImGui window, as large as fits or as it is zoomed: the wheel zooms, the middle button
   /// moves.
@@ -52,6 +53,7 @@ class PictureView {
   std::shared_ptr<const DrawnFrame> shown_;
   View uploaded_view_ = View::composite;
   float uploaded_gain_ = 0;
+  bool uploaded_truth_ = false;
   int width_ = 0, height_ = 0;
   render::GlTexture first_, second_;  ///< the view's picture, and what it is beside or flickers with
   float zoom_ = 0;                    ///< pixels of the screen a pixel of the picture; 0: as large as fits

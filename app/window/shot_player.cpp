@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "app/session/session.hpp"
+#include "render/image/picture_file.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -94,6 +98,18 @@ void ShotPlayer::open(const std::stop_token& stop) {
   if (info.frame_rate > 0) status_.frame_rate = info.frame_rate;
 }
 
+RgbPicture ShotPlayer::truth_of(const Frame& frame) const {
+  if (!recording_.truth_folder) return {};
+  char name[32];
+  std::snprintf(name, sizeof name, "%04lld.png", static_cast<long long>(frame.number()));
+  const std::filesystem::path path = std::filesystem::path(*recording_.truth_folder) / name;
+  if (!std::filesystem::exists(path)) return {};
+  cv::Mat rgb;
+  cv::cvtColor(render::read_picture(path.string(), render::PictureDepth::eight_bits), rgb, cv::COLOR_BGR2RGB);
+  if (rgb.cols != frame.width_px() || rgb.rows != frame.height_px()) return {};
+  return {rgb.cols, rgb.rows, {rgb.datastart, rgb.dataend}};
+}
+
 void ShotPlayer::draw(const Wish& wish) {
   const auto start = std::chrono::steady_clock::now();
   session_->apply(wish.rung == Rung::full ? wish.settings : quicker(wish.settings));
@@ -105,6 +121,7 @@ void ShotPlayer::draw(const Wish& wish) {
   drawn->position = wish.position, drawn->wish = wish.number, drawn->rung = wish.rung;
   drawn->number = job->image.number(), drawn->time_s = job->image.time_s();
   drawn->plate = rgb_of(job->image);
+  drawn->truth = truth_of(job->image);
   session_->render(*job);
   drawn->composite = job->result.rect.empty() ? drawn->plate : rgb_of(job->image.with_composite(job->result));
   drawn->track = job->track;

@@ -46,6 +46,7 @@ struct DrawnFrame {
   std::uint64_t wish = 0;  ///< the wish that it fulfils; 0: the footage alone, before anything could be drawn
   RgbPicture plate;
   RgbPicture composite;  ///< as `overlay` writes it
+  RgbPicture truth;      ///< empty where the recording has none for the frame
   TrackRow track;
   CameraModel camera;
   std::vector<render::PassTime> pass_times;
@@ -95,6 +96,7 @@ class ShotPlayer {
   void run(const std::stop_token& stop);
   void open(const std::stop_token& stop);
   void draw(const Wish& wish);
+  RgbPicture truth_of(const Frame& frame) const;
   void show_footage();
   void publish(std::shared_ptr<const DrawnFrame> frame);
   void finish(std::uint64_t wish, const std::optional<std::string>& error);

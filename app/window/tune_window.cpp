@@ -178,7 +178,9 @@ void TuneWindow::draw_top() {
   if (button("A", is_open && history_->has(0), "flip to the settings kept as A")) history_->take(0);
   if (button("keep B", is_open, "shift+b")) history_->keep(1);
   if (button("B", is_open && history_->has(1), "flip to the settings kept as B")) history_->take(1);
+  const bool has_truth = shown_ && !shown_->truth.rgb.empty();
   for (const std::string& name : name_list<View>()) {
+    if (name == name_of(View::truth) && !has_truth) continue;
     if (ImGui::RadioButton(name.c_str(), name == name_of(picture_view_.view))) picture_view_.view = *value_named<View>(name);
     items_.note("view " + name);
     ImGui::SameLine();
@@ -187,6 +189,13 @@ void TuneWindow::draw_top() {
     ImGui::SetNextItemWidth(100 * surface_.scale());
     ImGui::SliderFloat("gain", &picture_view_.gain, 1, 64, "%.0f", ImGuiSliderFlags_Logarithmic);
     items_.note("gain");
+    ImGui::SameLine();
+  }
+  const bool compares =
+      picture_view_.view == View::split || picture_view_.view == View::flicker || picture_view_.view == View::difference;
+  if (compares && has_truth) {
+    ImGui::Checkbox("against truth", &picture_view_.against_truth);
+    items_.note("against truth");
     ImGui::SameLine();
   }
   if (button("fit", is_open, "the whole picture (f)")) picture_view_.fit();
