@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/help.hpp"
 #include "app/window/tune_window.hpp"
 #include "app/window/ui_script.hpp"
 #include "catchlight/error.hpp"
@@ -69,6 +70,8 @@ void set_up_tune(CLI::App& command, Context& context) {
   command.add_option("--frames", options->frames, "without a screen: draw so many frames of the window, and end")
       ->check(CLI::Range(0, 1'000'000));
   command.add_option("--screenshot", options->screenshot, "write what the window shows in the end, PNG");
+  show_examples(command, {"catchlight tune recordings/matte",
+                          "catchlight tune my-shot --headless --ui-script turn.txt --screenshot window.png"});
   command.callback([options] { tune(*options); });
 }
 
