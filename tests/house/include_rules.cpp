@@ -36,6 +36,7 @@ const std::vector<Rule> kRules = {
     {{"app/media/"}, {}, {"tracking/"}, "footage knows no tags"},
     {kLibraries, {}, kFrontEnds, "only app sees the command line and windows"},
     {kLibraries, {}, kFfmpeg, "only app/media sees FFmpeg"},
+    {{"app/"}, {"app/window/"}, {"imgui", "backends/imgui", "GLFW/"}, "only app/window sees windows"},
     // The command `info` prints FFmpeg's versions.
     {{"app/"}, {"app/media/", "app/commands/info.cpp"}, kFfmpeg, "only app/media sees FFmpeg"},
 };
