@@ -262,8 +262,8 @@ glm::vec3 DirectLight::irradiance(const SurfacePoint& point, float* shares) cons
   constexpr float kEnough = 0.1f;
   if (point.is_back || sum < kEnough) {  // what is kept is for the front, and for what is outside
     const Bits all = bits_of(samples_.size());
-    const DirectLightNode node = point.is_back ? node_at(point.position_m, point.normal, {}, all)
-                                               : node_in(point.triangle, point.weights, {}, all);
+    const DirectLightNode node =
+        point.is_back ? node_at(point.position_m, point.normal, {}, all) : node_in(point.triangle, point.weights, {}, all);
     for (std::size_t i = 0; shares && i < samples_.size(); ++i) shares[i] = node.sees(i) ? 1 : 0;
     return node.irradiance;
   }
