@@ -90,9 +90,7 @@ TEST_F(TuneCli, ClosesWhileItTracks) {
 }
 
 TEST_F(TuneCli, ShowsWhatIsWrongAndGoesOn) {
-  const CommandResult result =
-      run("set probe.image nowhere.exr\nwait\nclick undo\nwait\npicture " + path("p.png") +
-          "\nquit\n");
+  const CommandResult result = run("set probe.image nowhere.exr\nwait\nclick undo\nwait\npicture " + path("p.png") + "\nquit\n");
   EXPECT_EQ(result.exit_code, 0) << result.error;
   EXPECT_TRUE(std::filesystem::exists(path("p.png")));
 }
