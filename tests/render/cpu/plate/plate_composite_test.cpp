@@ -40,7 +40,8 @@ class PlateComposite : public ::testing::Test {
     result.rect = rect;
     ResponseTable response;
     response.set(view_.color, plate_.format);
-    VirtualImages images{&object_, kFrame};
+    VirtualImages images;
+    images.object = &object_, images.object_rect = kFrame;
     images.shadow = [&](int x, int y, int count, const std::array<float*, 3>& ratio) {
       for (int i = 0; i < count; ++i)
         for (std::size_t c = 0; c < 3; ++c) ratio[c][i] = shadow_.pixel(x + i, y)[c];
