@@ -160,16 +160,17 @@ void TuneWindow::take_keys() {
   if (is_key_pressed("b")) io.KeyShift ? history_->keep(1) : history_->take(1);
 }
 
+bool TuneWindow::button(const char* name, bool is_possible, const char* help) {
+  ImGui::BeginDisabled(!is_possible);
+  const bool is_clicked = ImGui::Button(name);
+  items_.note(name);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
+  ImGui::EndDisabled();
+  ImGui::SameLine();
+  return is_clicked;
+}
+
 void TuneWindow::draw_top() {
-  const auto button = [&](const char* name, bool is_possible, const char* help) {
-    ImGui::BeginDisabled(!is_possible);
-    const bool is_clicked = ImGui::Button(name);
-    items_.note(name);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
-    ImGui::EndDisabled();
-    ImGui::SameLine();
-    return is_clicked;
-  };
   const bool is_open = history_.has_value();
   if (button("undo", is_open && history_->can_undo(), "ctrl+z")) history_->undo();
   if (button("redo", is_open && history_->can_redo(), "ctrl+y")) history_->redo();
@@ -178,29 +179,33 @@ void TuneWindow::draw_top() {
   if (button("A", is_open && history_->has(0), "flip to the settings kept as A")) history_->take(0);
   if (button("keep B", is_open, "shift+b")) history_->keep(1);
   if (button("B", is_open && history_->has(1), "flip to the settings kept as B")) history_->take(1);
+  draw_views();
+  if (button("fit", is_open, "the whole picture (f)")) picture_view_.fit();
+  if (button("1:1", is_open, "pixel by pixel (1)")) picture_view_.actual_size();
+  if (button("?", true, "keys (f1)")) shows_help_ = !shows_help_;
+}
+
+/// What the picture shows.
+void TuneWindow::draw_views() {
   const bool has_truth = shown_ && !shown_->truth.rgb.empty();
+  View& view = picture_view_.view;
   for (const std::string& name : name_list<View>()) {
     if (name == name_of(View::truth) && !has_truth) continue;
-    if (ImGui::RadioButton(name.c_str(), name == name_of(picture_view_.view))) picture_view_.view = *value_named<View>(name);
+    if (ImGui::RadioButton(name.c_str(), name == name_of(view))) view = *value_named<View>(name);
     items_.note("view " + name);
     ImGui::SameLine();
   }
-  if (picture_view_.view == View::difference) {
+  if (view == View::difference) {
     ImGui::SetNextItemWidth(100 * surface_.scale());
     ImGui::SliderFloat("gain", &picture_view_.gain, 1, 64, "%.0f", ImGuiSliderFlags_Logarithmic);
     items_.note("gain");
     ImGui::SameLine();
   }
-  const bool compares =
-      picture_view_.view == View::split || picture_view_.view == View::flicker || picture_view_.view == View::difference;
-  if (compares && has_truth) {
-    ImGui::Checkbox("against truth", &picture_view_.against_truth);
-    items_.note("against truth");
-    ImGui::SameLine();
-  }
-  if (button("fit", is_open, "the whole picture (f)")) picture_view_.fit();
-  if (button("1:1", is_open, "pixel by pixel (1)")) picture_view_.actual_size();
-  if (button("?", true, "keys (f1)")) shows_help_ = !shows_help_;
+  const bool compares = view == View::split || view == View::flicker || view == View::difference;
+  if (!compares || !has_truth) return;
+  ImGui::Checkbox("against truth", &picture_view_.against_truth);
+  items_.note("against truth");
+  ImGui::SameLine();
 }
 
 void TuneWindow::draw_picture() {

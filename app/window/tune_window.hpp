@@ -50,7 +50,9 @@ class TuneWindow final : public ScriptTarget {
   void drag_object();
   void draw_render();
   void take_keys();
+  bool button(const char* name, bool is_possible, const char* help);
   void draw_top();
+  void draw_views();
   void draw_picture();
   void draw_side();
   void draw_bottom();

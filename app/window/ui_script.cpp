@@ -73,11 +73,15 @@ void UiScript::fail(const ScriptCommand& command, const std::string& why) const 
   throw Error(path_ + ":" + std::to_string(command.line) + ": " + why);
 }
 
-ImVec2 UiScript::point_of(const ScriptTarget& target, const ScriptCommand& command, std::size_t word) const {
-  const std::string name = command.words[word];
-  const auto rect = target.items().find(name);
-  if (!rect) fail(command, "there is no control '" + name + "' in the window now");
-  return {0.5f * (rect->min.x + rect->max.x), 0.5f * (rect->min.y + rect->max.y)};
+GuiItems::Rect UiScript::rect_of(const ScriptTarget& target, const ScriptCommand& command, const std::string& control) const {
+  const auto rect = target.items().find(control);
+  if (!rect) fail(command, "there is no control '" + control + "' in the window now");
+  return *rect;
+}
+
+ImVec2 UiScript::middle_of(const ScriptTarget& target, const ScriptCommand& command, const std::string& control) const {
+  const GuiItems::Rect rect = rect_of(target, command, control);
+  return {0.5f * (rect.min.x + rect.max.x), 0.5f * (rect.min.y + rect.max.y)};
 }
 
 void UiScript::click(const ImVec2& at) {
@@ -99,58 +103,60 @@ void UiScript::drag(const ImVec2& from, const ImVec2& to) {
   gestures_.push_back([](ImGuiIO&) {});
 }
 
+float UiScript::number(const ScriptCommand& command, std::size_t word) const {
+  const auto value = real_from_text(command.words[word]);
+  if (!value) fail(command, "'" + command.words[word] + "' is no number");
+  return static_cast<float>(*value);
+}
+
 void UiScript::begin(ScriptTarget& target, const ScriptCommand& command) {
   const std::string& verb = command.verb;
   const auto& words = command.words;
-  const auto number = [&](std::size_t i) {
-    const auto value = real_from_text(words[i]);
-    if (!value) fail(command, "'" + words[i] + "' is no number");
-    return static_cast<float>(*value);
-  };
   if (verb == "open") return target.open(after(command, 0));
-  if (verb == "seek") return target.seek(static_cast<std::int64_t>(number(0)));
+  if (verb == "seek") return target.seek(static_cast<std::int64_t>(number(command, 0)));
   if (verb == "set") return target.set(words[0], after(command, 1));
   if (verb == "screenshot") return target.screenshot(words[0]);
   if (verb == "picture") return target.picture(words[0]);
   if (verb == "save") return target.save(after(command, 0));
   if (verb == "quit") return target.quit();
-  if (verb == "click") {
-    ScriptCommand whole{command.line, verb, {after(command, 0)}};
-    return click(point_of(target, whole, 0));
-  }
-  if (verb == "wheel") {
-    const ImVec2 at = point_of(target, command, 0);
-    const float steps = number(1);
-    gestures_.push_back([at](ImGuiIO& io) { io.MousePos = at; });
-    gestures_.push_back([steps](ImGuiIO& io) { io.MouseWheel = steps; });
-    gestures_.push_back([](ImGuiIO& io) { io.MouseWheel = 0; });
-    return;
-  }
-  if (verb == "drag") {
-    if (words.size() >= 4 && real_from_text(words[0])) return drag({number(0), number(1)}, {number(2), number(3)});
-    const auto rect = target.items().find(words[0]);
-    if (!rect) fail(command, "there is no control '" + words[0] + "' in the window now");
-    const float y = 0.5f * (rect->min.y + rect->max.y), width = rect->max.x - rect->min.x;
-    return drag({rect->min.x + number(1) * width, y}, {rect->min.x + number(2) * width, y});
-  }
-  if (verb == "type") {
-    const std::string text = after(command, 0);
-    gestures_.push_back([text](ImGuiIO& io) { io.AddInputCharactersUTF8(text.c_str()); });
-    return gestures_.push_back([](ImGuiIO&) {});
-  }
-  if (verb == "key") {
-    std::string name = words[0];
-    bool with_ctrl = false, with_shift = false;
-    for (; name.starts_with("ctrl+"); name.erase(0, 5)) with_ctrl = true;
-    for (; name.starts_with("shift+"); name.erase(0, 6)) with_shift = true;
-    const auto key = key_number(name);
-    if (!key) fail(command, "there is no key '" + name + "'");
-    gestures_.push_back([=](ImGuiIO& io) { io.KeyCtrl = with_ctrl, io.KeyShift = with_shift, io.KeysDown[*key] = true; });
-    gestures_.push_back([=](ImGuiIO& io) { io.KeyCtrl = io.KeyShift = io.KeysDown[*key] = false; });
-    return;
-  }
+  if (verb == "click") return click(middle_of(target, command, after(command, 0)));
+  if (verb == "wheel") return turn_wheel(middle_of(target, command, words[0]), number(command, 1));
+  if (verb == "drag") return drag_along(target, command);
+  if (verb == "type") return type(after(command, 0));
+  if (verb == "key") return press(command);
   if (verb == "expect" && target.value_of(words[0]) != after(command, 1))
     fail(command, words[0] + " is " + target.value_of(words[0]) + ", expected " + after(command, 1));
+}
+
+void UiScript::turn_wheel(const ImVec2& at, float steps) {
+  gestures_.push_back([at](ImGuiIO& io) { io.MousePos = at; });
+  gestures_.push_back([steps](ImGuiIO& io) { io.MouseWheel = steps; });
+  gestures_.push_back([](ImGuiIO& io) { io.MouseWheel = 0; });
+}
+
+void UiScript::drag_along(const ScriptTarget& target, const ScriptCommand& command) {
+  const auto& words = command.words;
+  if (words.size() >= 4 && real_from_text(words[0]))
+    return drag({number(command, 0), number(command, 1)}, {number(command, 2), number(command, 3)});
+  const GuiItems::Rect rect = rect_of(target, command, words[0]);
+  const float y = 0.5f * (rect.min.y + rect.max.y), width = rect.max.x - rect.min.x;
+  drag({rect.min.x + number(command, 1) * width, y}, {rect.min.x + number(command, 2) * width, y});
+}
+
+void UiScript::type(const std::string& text) {
+  gestures_.push_back([text](ImGuiIO& io) { io.AddInputCharactersUTF8(text.c_str()); });
+  gestures_.push_back([](ImGuiIO&) {});
+}
+
+void UiScript::press(const ScriptCommand& command) {
+  std::string name = command.words[0];
+  bool with_ctrl = false, with_shift = false;
+  for (; name.starts_with("ctrl+"); name.erase(0, 5)) with_ctrl = true;
+  for (; name.starts_with("shift+"); name.erase(0, 6)) with_shift = true;
+  const auto key = key_number(name);
+  if (!key) fail(command, "there is no key '" + name + "'");
+  gestures_.push_back([=](ImGuiIO& io) { io.KeyCtrl = with_ctrl, io.KeyShift = with_shift, io.KeysDown[*key] = true; });
+  gestures_.push_back([=](ImGuiIO& io) { io.KeyCtrl = io.KeyShift = io.KeysDown[*key] = false; });
 }
 
 void UiScript::before_frame(ScriptTarget& target) {

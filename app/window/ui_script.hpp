@@ -54,9 +54,15 @@ class UiScript {
  private:
   using Gesture = std::function<void(ImGuiIO&)>;
   void begin(ScriptTarget& target, const ScriptCommand& command);
-  ImVec2 point_of(const ScriptTarget& target, const ScriptCommand& command, std::size_t word) const;
+  float number(const ScriptCommand& command, std::size_t word) const;
+  GuiItems::Rect rect_of(const ScriptTarget& target, const ScriptCommand& command, const std::string& control) const;
+  ImVec2 middle_of(const ScriptTarget& target, const ScriptCommand& command, const std::string& control) const;
   void click(const ImVec2& at);
   void drag(const ImVec2& from, const ImVec2& to);
+  void drag_along(const ScriptTarget& target, const ScriptCommand& command);
+  void turn_wheel(const ImVec2& at, float steps);
+  void type(const std::string& text);
+  void press(const ScriptCommand& command);
   [[noreturn]] void fail(const ScriptCommand& command, const std::string& why) const;
 
   std::string path_;
