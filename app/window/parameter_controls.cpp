@@ -121,6 +121,26 @@ bool is_as_in(const SceneSettings& file, const SceneSettings& now, const Paramet
 
 }  // namespace
 
+/// Brings the file's value back.
+void ParameterControls::draw_reset(const Parameter& parameter, std::size_t index, const std::string& name,
+                                   SettingsHistory& history, GuiItems& items) {
+  const std::string text = parameter_text(history.file(), parameter, index);
+  ImGui::SameLine();
+  if (ImGui::Button("↺", {ImGui::GetFrameHeight(), 0})) {
+    SceneSettings next = history.now();
+    if (std::holds_alternative<PathKind>(parameter.kind))
+      set_parameter(next, parameter, text, index);  // as the file has it: an option's path would start at the working folder
+    else
+      set_parameter_from_text(next, name, text);
+    if (!history.file().is_by_hand(parameter.key)) next.by_hand.erase(parameter.key);
+    history.end_gesture();
+    history.change(std::move(next), name);
+    history.end_gesture();
+  }
+  items.note(name + " reset");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("back to %s", text.c_str());
+}
+
 void ParameterControls::draw_row(const Parameter& parameter, std::size_t index, SettingsHistory& history, GuiItems& items) {
   const SceneSettings& now = history.now();
   const std::string name = element_name(parameter, index, element_count(now, parameter));
@@ -147,19 +167,7 @@ void ParameterControls::draw_row(const Parameter& parameter, std::size_t index, 
   if (const Turned turned = draw_value(parameter, now, index)) change(*turned);
   items.note(name);
   if (ImGui::IsItemDeactivatedAfterEdit()) history.end_gesture();
-  if (is_changed) {
-    ImGui::SameLine();
-    if (ImGui::Button("↺", {ImGui::GetFrameHeight(), 0})) {
-      SceneSettings next = history.now();
-      set_parameter_from_text(next, name, parameter_text(history.file(), parameter, index));
-      if (!history.file().is_by_hand(parameter.key)) next.by_hand.erase(parameter.key);
-      history.end_gesture();
-      history.change(std::move(next), name);
-      history.end_gesture();
-    }
-    items.note(name + " reset");
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("back to %s", parameter_text(history.file(), parameter, index).c_str());
-  }
+  if (is_changed) draw_reset(parameter, index, name, history, items);
   ImGui::PopID();
 }
 

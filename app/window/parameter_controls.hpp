@@ -10,8 +10,7 @@ namespace catchlight::app {
 
 class ParameterControls {
  public:
-  /// Draws the groups into the current ImGui window; what is turned goes into the history. `busy_text`: what goes on because of
-  /// the last change, empty where nothing does.
+  /// Draws the groups into the current ImGui window; what is turned goes into the history.
   void draw(SettingsHistory& history, GuiItems& items);
 
   /// Shows the rows whose name or help holds the text; all where it is empty.
@@ -20,6 +19,8 @@ class ParameterControls {
   const std::string& refused() const { return refused_; }
 
  private:
+  void draw_reset(const struct Parameter& parameter, std::size_t index, const std::string& name, SettingsHistory& history,
+                  GuiItems& items);
   void draw_row(const struct Parameter& parameter, std::size_t index, SettingsHistory& history, GuiItems& items);
 
   std::string search_, refused_;

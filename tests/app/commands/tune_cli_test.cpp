@@ -74,6 +74,14 @@ TEST_F(TuneCli, ControlsAreClickedAndDragged) {
   EXPECT_GT(cv::mean(window)[0], 10);
 }
 
+TEST_F(TuneCli, BringsTheFilesValueBack) {
+  const CommandResult result =
+      run("set probe.yaw_deg 10\nset probe.image /nowhere.exr\nclick probe\nwait\n"
+          "click probe.yaw_deg reset\nclick probe.image reset\nwait\n"
+          "expect probe.yaw_deg 0\nexpect probe.image probe.exr\nquit\n");
+  EXPECT_EQ(result.exit_code, 0) << result.error;
+}
+
 TEST_F(TuneCli, SaysWhereAScriptFails) {
   const CommandResult unknown = run("wait\nclik undo\n");
   EXPECT_EQ(unknown.exit_code, 1);
