@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -18,7 +19,7 @@ constexpr float kPixelZoom = 3;
 constexpr double kFlicker_s = 0.5;
 
 ImTextureID id_of(const render::GlTexture& texture) {
-  return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture.id()));
+  return std::bit_cast<ImTextureID>(std::uintptr_t{texture.id()});
 }
 
 ImVec2 im(const glm::vec2& v) {

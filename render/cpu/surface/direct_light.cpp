@@ -179,9 +179,10 @@ void DirectLight::look_at(Known& known) const {
     for (const glm::vec2& w : {glm::vec2(0.5f, 0), glm::vec2(0, 0.5f), glm::vec2(0.5f, 0.5f), glm::vec2(1.0f / 3)}) probe(w);
     return;
   }
-  const float steps = std::min(edges + 1, kMaxProbedSteps);
-  for (float up = 0; up < steps; ++up)
-    for (float across = up == 0 ? 1 : 0; across + up <= steps && across < steps; ++across) probe(glm::vec2(across, up) / steps);
+  const int steps = static_cast<int>(std::min(edges + 1, kMaxProbedSteps));
+  for (int up = 0; up < steps; ++up)
+    for (int across = up == 0 ? 1 : 0; across + up <= steps && across < steps; ++across)
+      probe(glm::vec2(across, up) / static_cast<float>(steps));
 }
 
 /// Only of the samples that corners and probes do not agree on it is asked which are seen.
