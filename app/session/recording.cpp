@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
+#include <utility>
 
 #include "app/response/response_file.hpp"
 #include "app/settings/look.hpp"
@@ -91,6 +93,20 @@ Recording open_bare_footage(const std::string& location) {
   return recording;
 }
 
+/// A tag that is named twice, or two in one place, would give poses that are wrong and look certain.
+void check_board(const SceneSettings::Tag& tag) {
+  std::set<std::pair<std::string, int>> names{{tag.family, tag.id}};
+  for (const SceneSettings::Tag::Bundled& further : tag.bundle) {
+    const std::string family = further.family == "same" ? tag.family : further.family;
+    const std::string what = family + " #" + std::to_string(further.id);
+    if (!names.insert({family, further.id}).second)
+      throw Error("tag.bundle names " + what + " twice; each further tag of a board has a number of its own");
+    if (further.translation_m == glm::dvec3(0))
+      throw Error("tag.bundle: " + what + " would lie where the tag itself does; give its place, " +
+                  "tag.bundle.tag_from_this.translation_m");
+  }
+}
+
 /// What supplies a missing piece, by the kind of recording.
 std::string where_expected(const Recording& recording, const char* file) {
   return recording.folder.empty() ? "bare footage brings none" : "expected " + (fs::path(recording.folder) / file).string();
@@ -104,7 +120,7 @@ void choose_camera(Recording& recording, const RecordingOverrides& overrides) {
   if (overrides.fov_deg) {
     recording.fov_deg = overrides.fov_deg;
     if (recording.camera_file)
-      recording.warnings.push_back("--fov goes before " + *recording.camera_file + ", whose lens and distortion are not used");
+      recording.warnings.push_back("--fov overrides " + *recording.camera_file + ": its lens and distortion are not used");
     recording.camera_file.reset();
   }
   if (!recording.camera_file && !recording.fov_deg)
@@ -153,6 +169,7 @@ Recording open_recording(const std::string& location, const RecordingOverrides& 
   recording.fps = overrides.fps;
   choose_camera(recording, overrides);
   choose_scene(recording, overrides);
+  check_board(recording.scene.tag);
   return recording;
 }
 

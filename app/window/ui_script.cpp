@@ -57,6 +57,7 @@ std::vector<ScriptCommand> read_ui_script(const std::string& path) {
     const std::string where = path + ":" + std::to_string(number) + ": ";
     if (verb == kVerbs.end()) {
       std::vector<std::string> names;
+      names.reserve(kVerbs.size());
       for (const Verb& known : kVerbs) names.emplace_back(known.name);
       throw Error(where + "unknown command '" + command.verb + "'; did you mean '" + nearest(command.verb, names) + "'?");
     }

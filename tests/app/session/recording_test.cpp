@@ -119,7 +119,7 @@ TEST(RecordingFolder, AFieldOfViewThatGoesBeforeACameraFileIsToldOf) {
   overrides.fov_deg = 60;
   const Recording recording = open_recording(folder.path(), overrides);
   ASSERT_EQ(recording.warnings.size(), 1u);
-  EXPECT_THAT(recording.warnings[0], HasSubstr("--fov goes before " + folder.path("camera.yaml")));
+  EXPECT_THAT(recording.warnings[0], HasSubstr("--fov overrides " + folder.path("camera.yaml")));
   std::filesystem::remove(folder.path("camera.yaml"));
   EXPECT_TRUE(open_recording(folder.path(), overrides).warnings.empty());
 }
@@ -197,6 +197,19 @@ TEST(RecordingOverrides, GoBeforeTheSceneFileWhichGoesBeforeTheDefaults) {
   EXPECT_EQ(recording.scene.tag.id, 7);               // option
   EXPECT_EQ(recording.scene.tag.size_m, 0.1);         // scene file
   EXPECT_EQ(recording.scene.tag.family, "tag36h11");  // default
+}
+
+TEST(RecordingFolder, ABoardWhoseTagsCannotBeToldApartIsRefused) {
+  const RecordingFolder folder;
+  const auto refusal = [&](const std::string& board) {
+    folder.write("scene.toml", "[tag]\nid = 5\nsize_m = 0.1\n" + board);
+    return message_of<Error>([&] { open_recording(folder.path()); });
+  };
+  const std::string place = "tag_from_this = { translation_m = [0.2, 0, 0] }\n";
+  EXPECT_THAT(refusal("[[tag.bundle]]\nid = 5\n" + place), HasSubstr("tag36h11 #5 twice"));
+  EXPECT_THAT(refusal("[[tag.bundle]]\nid = 6\n"), HasSubstr("where the tag itself does; give its place"));
+  folder.write("scene.toml", "[tag]\nid = 5\nsize_m = 0.1\n[[tag.bundle]]\nid = 6\n" + place);
+  EXPECT_EQ(open_recording(folder.path()).scene.tag.bundle.size(), 1u);
 }
 
 TEST(RecordingOverrides, LastOptionWins) {
