@@ -101,7 +101,10 @@ std::vector<Parameter> probe_parameters() {
        "The light stands still with the \"tag\" (the camera moves) or with the \"camera\" (which stands still, with the tag in "
        "the hand).",
        ChoiceKind{[](auto& s) { return &s.probe.fixed_to; }}},
-      {"probe.ev", "EV", light, "The probe is brightened by this many stops.",
+      {"probe.ev", "EV", light,
+       "The probe is brightened by this many stops. That shows where `exposure.mode` is \"fixed\": else the exposure is matched "
+       "to "
+       "the probe's light.",
        RealKind{[](auto& s) { return &s.probe.ev; }, -30, 30}},
   };
 }
