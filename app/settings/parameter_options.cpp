@@ -24,12 +24,6 @@ const List* list_of(const Parameter& parameter) {
   return found == std::end(kLists) ? nullptr : found;
 }
 
-/// "object[1].mesh".
-std::string element_key(const Parameter& parameter, const List& list, std::size_t index) {
-  const std::string name = list.name;
-  return name + '[' + std::to_string(index) + ']' + parameter.key.substr(name.size());
-}
-
 /// A row and, where the key says it, which object or further tag.
 struct NamedElement {
   const Parameter* parameter;
@@ -55,7 +49,7 @@ std::size_t chosen_index(const SceneSettings& settings, const std::string& key, 
   const std::size_t count = element_count(settings, *named.parameter);
   const std::string there_are =
       "--" + key + ": " + list->owner + " has " + std::to_string(count) + ' ' + (count == 1 ? list->one : list->several);
-  const auto option = [&](std::size_t index) { return "--" + element_key(*named.parameter, *list, index); };
+  const auto option = [&](std::size_t index) { return "--" + element_key(*named.parameter, index); };
   if (named.index && *named.index < std::max<std::size_t>(count, 1)) return *named.index;
   if (named.index)
     throw UsageError(there_are + (count < 2 ? ", which is " + option(0) : ", from " + option(0) + " to " + option(count - 1)));
@@ -102,6 +96,13 @@ struct FromText {
 };
 
 }  // namespace
+
+std::string element_key(const Parameter& parameter, std::size_t index) {
+  const List* list = list_of(parameter);
+  if (!list) return parameter.key;
+  const std::string name = list->name;
+  return name + '[' + std::to_string(index) + ']' + parameter.key.substr(name.size());
+}
 
 bool names_an_element(const std::string& key) {
   const auto named = element_named(key);

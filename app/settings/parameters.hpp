@@ -42,6 +42,9 @@ void set_parameter(SceneSettings& settings, const Parameter& parameter, const Pa
 /// one that leaves open which is meant, or what set_parameter refuses.
 void set_parameter_from_text(SceneSettings& settings, const std::string& key, const std::string& text);
 
+/// The key of one element of what a scene may have several of: `object[1].mesh`; the row's own key where there is one value.
+std::string element_key(const Parameter& parameter, std::size_t index);
+
 /// Whether the key is a row's with a number, such as `object[1].mesh`.
 bool names_an_element(const std::string& key);
 

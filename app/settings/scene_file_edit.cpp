@@ -198,7 +198,7 @@ std::string edited_scene_text(const std::string& text, const std::string& path, 
   for (const Parameter& parameter : parameters())
     for (std::size_t i = 0; i < element_count(after, parameter); ++i) {
       const Key key{split(parameter.key, '.'), i};
-      // Of several elements it is not known which were given: those that are as before stay as they are.
+      // Which of several elements were given is not known: those that are as before stay as they are.
       const bool is_one = element_count(after, parameter) == 1;
       const bool was_given = !is_one || before.is_by_hand(parameter.key), is_given = !is_one || after.is_by_hand(parameter.key);
       if (was_given && !is_given) scene.erase(key);

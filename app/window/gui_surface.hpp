@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "catchlight/image.hpp"
-
 namespace catchlight::app {
 
 /// A surface with a current OpenGL context and an ImGui context of its own; one lives at a time.

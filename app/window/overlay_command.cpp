@@ -19,12 +19,6 @@ void add_overrides(const RecordingOverrides& overrides, std::vector<std::string>
   if (!overrides.shader_folder.empty()) add("--shader-dir", overrides.shader_folder);
 }
 
-/// `object[1].mesh` for the second of several.
-std::string option_of(const Parameter& parameter, std::size_t index, std::size_t count) {
-  const std::string group = parameter.key.starts_with("tag.bundle.") ? "tag.bundle" : "object";
-  return "--" + (count < 2 ? parameter.key : group + '[' + std::to_string(index) + ']' + parameter.key.substr(group.size()));
-}
-
 }  // namespace
 
 std::vector<std::string> overlay_arguments(const std::string& location, const RecordingOverrides& overrides,
@@ -43,7 +37,7 @@ std::vector<std::string> overlay_arguments(const std::string& location, const Re
                               (count == 1 && now.is_by_hand(parameter.key) && !file.is_by_hand(parameter.key));
       if (!is_changed) continue;
       const bool names_a_file = std::holds_alternative<PathKind>(parameter.kind);
-      arguments.push_back(option_of(parameter, i, count));
+      arguments.push_back("--" + (count < 2 ? parameter.key : element_key(parameter, i)));
       arguments.push_back(names_a_file && count < 2 ? word_or_path(now, parameter.key) : parameter_text(now, parameter, i));
     }
   }

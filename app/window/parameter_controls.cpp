@@ -108,13 +108,6 @@ bool holds_text(const std::string& text, const std::string& part) {
   return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
 }
 
-/// `object.mesh` of the second object is `object[1].mesh`.
-std::string element_name(const Parameter& parameter, std::size_t index, std::size_t count) {
-  if (count < 2) return parameter.key;
-  const std::string group = parameter.key.starts_with("tag.bundle.") ? "tag.bundle" : "object";
-  return group + '[' + std::to_string(index) + ']' + parameter.key.substr(group.size());
-}
-
 bool is_as_in(const SceneSettings& file, const SceneSettings& now, const Parameter& parameter, std::size_t index) {
   return parameter_text(file, parameter, index) == parameter_text(now, parameter, index);
 }
@@ -143,7 +136,7 @@ void ParameterControls::draw_reset(const Parameter& parameter, std::size_t index
 
 void ParameterControls::draw_row(const Parameter& parameter, std::size_t index, SettingsHistory& history, GuiItems& items) {
   const SceneSettings& now = history.now();
-  const std::string name = element_name(parameter, index, element_count(now, parameter));
+  const std::string name = element_count(now, parameter) < 2 ? parameter.key : element_key(parameter, index);
   ImGui::PushID(name.c_str());
   const bool is_changed = !is_as_in(history.file(), now, parameter, index);
   const auto change = [&](const ParameterValue& value) {

@@ -31,9 +31,6 @@ class SettingsHistory {
   bool can_redo() const { return at_ + 1 < steps_.size(); }
   void undo();
   void redo();
-  /// The key that the next undo takes back, and redo brings again.
-  const std::string& undone_by_undo() const { return steps_[at_].key; }
-  const std::string& done_by_redo() const { return steps_[at_ + 1].key; }
 
   /// Keeps what is now in slot 0 (A) or 1 (B).
   void keep(std::size_t slot) { slots_[slot] = now(); }

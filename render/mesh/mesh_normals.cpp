@@ -13,7 +13,7 @@ namespace {
 /// Triangles that a flat polygon was cut into meet at angles of rounding.
 constexpr double kCoplanarDeg = 0.1;
 
-/// Of an edge with many triangles, which is no surface's, each is compared with so many only.
+/// An edge with many triangles is no surface's: each of them is compared with so many only.
 constexpr std::size_t kMaxNeighbours = 8;
 
 bool is_missing(const Vertex& vertex) {

@@ -83,7 +83,7 @@ TEST(ProbeSplit, PrintsTheLightsBrightestFirst) {
   EXPECT_THAT(folder.names(), ElementsAre("probe.exr"));
 }
 
-/// Of all light there is no more than all: one lamp of the two gives 200 times the other's.
+/// A share is at most all of the light: one lamp of the two gives 200 times the other's.
 TEST(ProbeSplit, SharesAreOfTheWholeProbesLight) {
   const ProbeFile folder(two_lamps());
   const std::string output = run_catchlight({"probe", "split", folder.path("probe.exr")}).output;

@@ -118,7 +118,7 @@ TEST(BoundedQueue, WorkThatKeepsAnItemBackHandsOnTheOthers) {
   EXPECT_EQ(taken, (std::vector{0, 3, 6, 9}));
 }
 
-/// Of live footage the item is the newest when it is made: none is made while another waits.
+/// An item of live footage is the newest when it is made: none is made while another waits.
 TEST(BoundedQueue, AnItemIsMadeOnceThereIsRoom) {
   BoundedQueue<int> queue(1);
   std::atomic<int> taken = 0, made = 0;
