@@ -174,19 +174,8 @@ float* pixel(Composite& composite, int x, int y) {
 
 /// The frame in codes of 8 bits, RGB: fine enough for what antialiased edges are blended with.
 cv::Mat plate_codes(const Frame& frame, const PixelRect& rect) {
-  Plate plate = frame.rgb(rect);
-  cv::Mat codes;
-  switch (plate.format) {
-    case Plate::Format::rgb_u8:
-      return cv::Mat(rect.height, rect.width, CV_8UC3, plate.pixels.data()).clone();
-    case Plate::Format::rgb_u16:
-      cv::Mat(rect.height, rect.width, CV_16UC3, plate.pixels.data()).convertTo(codes, CV_8U, 1 / 257.0);
-      break;
-    case Plate::Format::rgb_f32:
-      cv::Mat(rect.height, rect.width, CV_32FC3, plate.pixels.data()).convertTo(codes, CV_8U, 255);
-      break;
-  }
-  return codes;
+  std::vector<unsigned char> codes = codes_8_bit(frame.rgb(rect));
+  return cv::Mat(rect.height, rect.width, CV_8UC3, codes.data()).clone();
 }
 
 /// The codes that the frame shows with its composite.

@@ -9,15 +9,9 @@
 namespace catchlight::app {
 
 cv::Mat bgr_of(const Frame& frame) {
-  const Plate plate = frame.rgb({0, 0, frame.width_px(), frame.height_px()});
-  const int depth = plate.format == Plate::Format::rgb_u8    ? CV_8UC3
-                    : plate.format == Plate::Format::rgb_u16 ? CV_16UC3
-                                                             : CV_32FC3;
-  const double to_8_bit = depth == CV_8UC3 ? 1.0 : depth == CV_16UC3 ? 1.0 / 257 : 255.0;
-  const cv::Mat codes(plate.rect.height, plate.rect.width, depth, const_cast<std::byte*>(plate.pixels.data()));
+  std::vector<unsigned char> codes = codes_8_bit(frame.rgb({0, 0, frame.width_px(), frame.height_px()}));
   cv::Mat bgr;
-  cv::cvtColor(codes, bgr, cv::COLOR_RGB2BGR);
-  bgr.convertTo(bgr, CV_8U, to_8_bit);
+  cv::cvtColor(cv::Mat(frame.height_px(), frame.width_px(), CV_8UC3, codes.data()), bgr, cv::COLOR_RGB2BGR);
   return bgr;
 }
 
