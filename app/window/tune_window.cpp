@@ -13,8 +13,7 @@
 #include "app/settings/change_cost.hpp"
 #include "app/settings/parameters.hpp"
 #include "app/settings/scene_file_edit.hpp"
-#include "app/window/gui_keys.hpp"
-#include "app/window/overlay_command.hpp"
+#include "app/window/surface/gui_keys.hpp"
 #include "catchlight/error.hpp"
 #include "render/image/picture_file.hpp"
 
@@ -54,15 +53,15 @@ void write_picture(const std::string& path, int width, int height, const std::ve
 }  // namespace
 
 TuneWindow::TuneWindow(GuiSurface& surface, const std::string& location, RecordingOverrides overrides)
-    : surface_(surface), overrides_(std::move(overrides)) {
+    : surface_(surface), opened_{"", std::move(overrides)} {
   if (!location.empty()) open(location);
 }
 
 void TuneWindow::open(const std::string& location) {
-  Recording recording = open_recording(location, overrides_);  // where this throws, all is as before
+  Recording recording = open_recording(location, opened_.overrides);  // where this throws, all is as before
   player_.reset();
   recording_ = recording;
-  location_ = location;
+  opened_.location = location;
   history_.emplace(recording.scene);
   playhead_ = {};
   shown_ = nullptr;
@@ -73,7 +72,7 @@ void TuneWindow::open(const std::string& location) {
 }
 
 std::string TuneWindow::scene_file() const {
-  if (overrides_.scene_file) return *overrides_.scene_file;
+  if (opened_.overrides.scene_file) return *opened_.overrides.scene_file;
   return (std::filesystem::path(recording_->folder) / "scene.toml").string();
 }
 
@@ -120,7 +119,7 @@ bool TuneWindow::is_idle() const {
 /// Fewer rays and samples where full quality could not follow a hand, or the footage.
 Rung TuneWindow::rung() const {
   constexpr double kSmooth_ms = 1000.0 / 15;
-  const bool moves = playhead_.is_playing() || drag_ || ImGui::IsAnyItemActive();
+  const bool moves = playhead_.is_playing() || object_hand_.holds() || ImGui::IsAnyItemActive();
   return moves && full_ms_ > kSmooth_ms ? Rung::fast : Rung::full;
 }
 
@@ -214,55 +213,9 @@ void TuneWindow::draw_picture() {
         "Drop a recording here: a folder with footage and scene.toml, or a scene file. Examples are in recordings/.");
   else
     picture_view_.draw(shown_, items_);
-  drag_object();
-}
-
-/// The left button takes hold of the first object: it moves, with shift it turns, with ctrl it grows.
-void TuneWindow::drag_object() {
-  if (!ImGui::IsMouseDown(ImGuiMouseButton_Left) && drag_) {
-    drag_.reset();
-    history_->end_gesture();
-  }
-  if (!shown_ || !shown_->track.found || history_->now().objects.empty()) return;
-  const auto place_m = seen_place_m(shown_->camera, shown_->track.camera_from_tag, picture_view_.pointed_px());
-  if (!place_m) return;
-  const ImGuiIO& io = ImGui::GetIO();
-  if (!drag_ && picture_view_.may_take_hold() && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
-    if (history_->now().objects[0].matrix) {
-      message_ = "the scene file places the object by a matrix: give it translation_m, rotation_deg and scale to drag it";
-      return;
-    }
-    drag_kind_ = io.KeyShift ? DragKind::turn : io.KeyCtrl ? DragKind::scale : DragKind::move;
-    history_->end_gesture();
-    drag_.emplace(history_->now(), 0, drag_kind_, *place_m);
-  }
-  if (!drag_) return;
-  if (io.MouseDelta.x != 0 || io.MouseDelta.y != 0) history_->change(drag_->at(*place_m), drag_->key());
-  ImGui::SetTooltip("%s", ObjectDrag::text(history_->now(), 0, drag_kind_).c_str());
-}
-
-/// Draws the marked range into a file, by another run of this program.
-void TuneWindow::draw_render() {
-  if (!ImGui::CollapsingHeader("render")) return items_.note("render");
-  items_.note("render");
-  ImGui::SetNextItemWidth(-1);
-  ImGui::InputText("##output", &output_);
-  items_.note("output");
-  const std::int64_t first = shown_ ? shown_->number - shown_->position : 0;
-  const FrameRange all{}, marked{first + playhead_.begin(), first + playhead_.end()};
-  const bool is_all = playhead_.begin() == 0 && playhead_.end() == playhead_.frame_count();
-  const std::vector<std::string> arguments =
-      overlay_arguments(location_, overrides_, history_->file(), history_->now(), is_all ? all : marked, output_);
-  const std::string command = "catchlight " + shell_text(arguments);
-  ImGui::TextWrapped("%s", command.c_str());
-  if (ImGui::Button("copy the command")) ImGui::SetClipboardText(command.c_str());
-  items_.note("copy the command");
-  ImGui::SameLine();
-  ImGui::BeginDisabled(render_ && !render_->is_over());
-  if (ImGui::Button("draw the file")) render_ = std::make_unique<BackgroundRun>(arguments);
-  items_.note("draw the file");
-  ImGui::EndDisabled();
-  if (render_) ImGui::TextWrapped("%s", render_->has_succeeded() ? ("made " + output_).c_str() : render_->last_line().c_str());
+  if (!shown_) return;
+  const std::string problem = object_hand_.take_input(*shown_, picture_view_, *history_);
+  if (!problem.empty()) message_ = problem;
 }
 
 /// A probe or a model becomes the scene's; all else is opened.
@@ -284,7 +237,7 @@ void TuneWindow::take_dropped(const std::string& file) {
 void TuneWindow::draw_side() {
   if (history_) controls_.draw(*history_, items_);
   if (!player_) return;
-  draw_render();
+  render_panel_.draw(opened_, *history_, playhead_, shown_ ? shown_->number - shown_->position : 0, items_);
   panels_.draw(shown_, player_->status(), items_);
 }
 

@@ -7,16 +7,16 @@
 #include <string>
 
 #include "app/session/recording.hpp"
-#include "app/window/background_run.hpp"
-#include "app/window/gui_items.hpp"
-#include "app/window/gui_surface.hpp"
-#include "app/window/object_drag.hpp"
-#include "app/window/panels.hpp"
-#include "app/window/parameter_controls.hpp"
-#include "app/window/picture_view.hpp"
-#include "app/window/settings_history.hpp"
-#include "app/window/shot_player.hpp"
-#include "app/window/transport.hpp"
+#include "app/window/editing/settings_history.hpp"
+#include "app/window/panels/panels.hpp"
+#include "app/window/panels/parameter_controls.hpp"
+#include "app/window/panels/render_panel.hpp"
+#include "app/window/picture/object_hand.hpp"
+#include "app/window/picture/picture_view.hpp"
+#include "app/window/playing/shot_player.hpp"
+#include "app/window/playing/transport.hpp"
+#include "app/window/surface/gui_items.hpp"
+#include "app/window/surface/gui_surface.hpp"
 #include "app/window/ui_script.hpp"
 
 namespace catchlight::app {
@@ -47,8 +47,6 @@ class TuneWindow final : public ScriptTarget {
   void ask_player();
   Rung rung() const;
   void take_dropped(const std::string& file);
-  void drag_object();
-  void draw_render();
   void take_keys();
   bool button(const char* name, bool is_possible, const char* help);
   void draw_top();
@@ -62,7 +60,7 @@ class TuneWindow final : public ScriptTarget {
   void take_screenshot();
 
   GuiSurface& surface_;
-  RecordingOverrides overrides_;
+  OpenedRecording opened_;
   std::optional<Recording> recording_;
   std::optional<SettingsHistory> history_;  ///< there is one where there is a recording
   std::unique_ptr<ShotPlayer> player_;
@@ -76,10 +74,8 @@ class TuneWindow final : public ScriptTarget {
   ParameterControls controls_;
   Panels panels_;
   GuiItems items_;
-  std::optional<ObjectDrag> drag_;
-  DragKind drag_kind_ = DragKind::move;
-  std::unique_ptr<BackgroundRun> render_;
-  std::string location_, output_ = "comp.mp4";
+  ObjectHand object_hand_;
+  RenderPanel render_panel_;
   std::string message_, screenshot_;
   bool is_done_ = false, asks_to_quit_ = false, shows_help_ = false;
 };

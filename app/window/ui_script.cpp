@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "app/window/gui_keys.hpp"
+#include "app/window/surface/gui_keys.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/util/text.hpp"
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "app/window/gui_items.hpp"
+#include "app/window/surface/gui_items.hpp"
 
 namespace catchlight::app {
 

@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 
-#include "app/window/gui_surface.hpp"
+#include "app/window/surface/gui_surface.hpp"
 #include "render/gl/render_target.hpp"
 
 namespace catchlight::app {

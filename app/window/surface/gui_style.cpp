@@ -1,4 +1,4 @@
-#include "app/window/gui_style.hpp"
+#include "app/window/surface/gui_style.hpp"
 
 #include <imgui.h>
 

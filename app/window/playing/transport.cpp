@@ -1,11 +1,11 @@
-#include "app/window/transport.hpp"
+#include "app/window/playing/transport.hpp"
 
 #include <imgui.h>
 
 #include <algorithm>
 #include <string>
 
-#include "app/window/gui_keys.hpp"
+#include "app/window/surface/gui_keys.hpp"
 #include "catchlight/util/enum_names.hpp"
 
 namespace catchlight::app {

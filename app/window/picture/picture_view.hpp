@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include "app/window/gui_items.hpp"
-#include "app/window/shot_player.hpp"
+#include "app/window/playing/shot_player.hpp"
+#include "app/window/surface/gui_items.hpp"
 #include "render/gl/gl_objects.hpp"
 
 namespace catchlight::app {

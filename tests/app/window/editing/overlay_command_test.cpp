@@ -1,4 +1,4 @@
-#include "app/window/overlay_command.hpp"
+#include "app/window/editing/overlay_command.hpp"
 
 #include <gmock/gmock.h>
 

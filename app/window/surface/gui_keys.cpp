@@ -1,4 +1,4 @@
-#include "app/window/gui_keys.hpp"
+#include "app/window/surface/gui_keys.hpp"
 
 #include <GLFW/glfw3.h>
 #include <imgui.h>

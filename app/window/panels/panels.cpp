@@ -1,4 +1,4 @@
-#include "app/window/panels.hpp"
+#include "app/window/panels/panels.hpp"
 
 #include <imgui.h>
 

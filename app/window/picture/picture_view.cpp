@@ -1,4 +1,4 @@
-#include "app/window/picture_view.hpp"
+#include "app/window/picture/picture_view.hpp"
 
 #include <imgui.h>
 

@@ -1,4 +1,4 @@
-#include "app/window/object_drag.hpp"
+#include "app/window/editing/object_drag.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
-#include "app/window/gui_keys.hpp"
-#include "app/window/gui_picture.hpp"
-#include "app/window/gui_style.hpp"
-#include "app/window/gui_surface.hpp"
+#include "app/window/surface/gui_keys.hpp"
+#include "app/window/surface/gui_picture.hpp"
+#include "app/window/surface/gui_style.hpp"
+#include "app/window/surface/gui_surface.hpp"
 #include "render/gl/gl_context.hpp"
 
 namespace catchlight::app {

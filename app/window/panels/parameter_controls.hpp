@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "app/window/gui_items.hpp"
-#include "app/window/settings_history.hpp"
+#include "app/window/editing/settings_history.hpp"
+#include "app/window/surface/gui_items.hpp"
 
 namespace catchlight::app {
 

@@ -1,4 +1,4 @@
-#include "app/window/gui_picture.hpp"
+#include "app/window/surface/gui_picture.hpp"
 
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>

@@ -1,4 +1,4 @@
-#include "app/window/shot_player.hpp"
+#include "app/window/playing/shot_player.hpp"
 
 #include <algorithm>
 #include <chrono>

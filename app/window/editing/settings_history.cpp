@@ -1,4 +1,4 @@
-#include "app/window/settings_history.hpp"
+#include "app/window/editing/settings_history.hpp"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "app/window/background_run.hpp"
+#include "app/window/panels/background_run.hpp"
 
 #include <sys/wait.h>
 
@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "app/window/overlay_command.hpp"
+#include "app/window/editing/overlay_command.hpp"
 
 namespace catchlight::app {
 

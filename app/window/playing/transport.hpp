@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "app/window/gui_items.hpp"
-#include "app/window/playhead.hpp"
+#include "app/window/playing/playhead.hpp"
+#include "app/window/surface/gui_items.hpp"
 
 namespace catchlight::app {
 

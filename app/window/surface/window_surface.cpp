@@ -9,9 +9,9 @@
 #include <cstdlib>
 #include <utility>
 
-#include "app/window/gui_picture.hpp"
-#include "app/window/gui_style.hpp"
-#include "app/window/gui_surface.hpp"
+#include "app/window/surface/gui_picture.hpp"
+#include "app/window/surface/gui_style.hpp"
+#include "app/window/surface/gui_surface.hpp"
 #include "catchlight/error.hpp"
 #include "render/gl/gl_context.hpp"
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <memory>
 
-#include "app/window/gui_items.hpp"
-#include "app/window/shot_player.hpp"
+#include "app/window/playing/shot_player.hpp"
+#include "app/window/surface/gui_items.hpp"
 
 namespace catchlight::app {
 

@@ -1,4 +1,4 @@
-#include "app/window/parameter_controls.hpp"
+#include "app/window/panels/parameter_controls.hpp"
 
 #include <imgui.h>
 #include <imgui_stdlib.h>
