@@ -44,9 +44,10 @@ void begin_part(const char* name, float x, float y, float width, float height, I
                    ImGuiWindowFlags_NoBringToFrontOnFocus | flags);
 }
 
-void write_picture(const std::string& path, int width, int height, const std::vector<unsigned char>& rgb) {
+void write_picture(const std::string& path, const RgbPicture& picture) {
+  const cv::Mat rgb(picture.height, picture.width, CV_8UC3, const_cast<unsigned char*>(picture.rgb.data()));
   cv::Mat bgr;
-  cv::cvtColor(cv::Mat(height, width, CV_8UC3, const_cast<unsigned char*>(rgb.data())), bgr, cv::COLOR_RGB2BGR);
+  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
   render::write_png(path, bgr);
 }
 
@@ -94,7 +95,7 @@ std::string TuneWindow::value_of(const std::string& key) const {
 
 void TuneWindow::picture(const std::string& path) {
   if (!shown_) throw Error("picture " + path + ": nothing is shown yet");
-  write_picture(path, shown_->composite.width, shown_->composite.height, shown_->composite.rgb);
+  write_picture(path, shown_->composite);
 }
 
 void TuneWindow::save(const std::string& path) {
@@ -286,8 +287,7 @@ void TuneWindow::draw_questions() {
 
 void TuneWindow::take_screenshot() {
   if (screenshot_.empty()) return;
-  const GuiSurface::Picture picture = surface_.picture();
-  write_picture(std::exchange(screenshot_, ""), picture.width, picture.height, picture.rgb);
+  write_picture(std::exchange(screenshot_, ""), surface_.picture());
 }
 
 void TuneWindow::frame() {

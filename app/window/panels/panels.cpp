@@ -45,21 +45,16 @@ Histogram histogram_of(const RgbPicture& picture) {
 }
 
 void Panels::draw(const std::shared_ptr<const DrawnFrame>& frame, const PlayerStatus& status, GuiItems& items) {
-  const auto header = [&](const char* name) {
-    const bool is_open = ImGui::CollapsingHeader(name);
-    items.note(name);
-    return is_open;
-  };
-  if (header("histogram") && frame) {
+  if (items.section("histogram") && frame) {
     if (frame != counted_) histogram_ = histogram_of(frame->composite);
     counted_ = frame;
     draw_histogram(histogram_);
   }
-  if (header("times") && frame) draw_times(frame->pass_times);
-  if (header("plan"))
+  if (items.section("times") && frame) draw_times(frame->pass_times);
+  if (items.section("plan"))
     for (const PlanEntry& entry : status.plan)
       ImGui::TextWrapped("%s = %s: %s", entry.choice.c_str(), entry.value.c_str(), entry.reason.c_str());
-  if (header("warnings"))
+  if (items.section("warnings"))
     for (const std::string& warning : status.warnings) ImGui::TextWrapped("%s", warning.c_str());
 }
 

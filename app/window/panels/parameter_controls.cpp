@@ -176,8 +176,7 @@ void ParameterControls::draw(SettingsHistory& history, GuiItems& items) {
     const std::string group_here = parameter.key.substr(0, parameter.key.find('.'));
     if (group_here != group) {
       group = group_here;
-      is_open = ImGui::CollapsingHeader(group.c_str(), search_.empty() ? 0 : ImGuiTreeNodeFlags_DefaultOpen);
-      items.note(group);
+      is_open = items.section(group.c_str(), !search_.empty());
     }
     if (!is_open) continue;
     const std::size_t count = element_count(history.now(), parameter);

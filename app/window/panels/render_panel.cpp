@@ -12,9 +12,7 @@ namespace catchlight::app {
 
 void RenderPanel::draw(const OpenedRecording& opened, const SettingsHistory& history, const Playhead& playhead,
                        std::int64_t first_number, GuiItems& items) {
-  const bool is_open = ImGui::CollapsingHeader("render");
-  items.note("render");
-  if (!is_open) return;
+  if (!items.section("render")) return;
   ImGui::SetNextItemWidth(-1);
   ImGui::InputText("##output", &output_);
   items.note("output");

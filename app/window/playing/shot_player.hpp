@@ -14,6 +14,7 @@
 #include "app/session/plan.hpp"
 #include "app/session/recording.hpp"
 #include "app/support/log.hpp"
+#include "app/window/surface/rgb_picture.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/track.hpp"
 #include "render/pass_time.hpp"
@@ -30,12 +31,6 @@ enum class Rung {
 constexpr auto names_of(Rung) {
   return std::array{"full quality", "fewer rays and samples while it moves"};
 }
-
-/// 8-bit RGB, rows from the top.
-struct RgbPicture {
-  int width = 0, height = 0;
-  std::vector<unsigned char> rgb;
-};
 
 /// One frame as it was drawn.
 struct DrawnFrame {

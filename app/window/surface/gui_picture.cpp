@@ -24,8 +24,8 @@ void GuiPicture::show() const {
   glBlitNamedFramebuffer(target_->framebuffer(), 0, 0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
-GuiSurface::Picture GuiPicture::read() const {
-  GuiSurface::Picture result;
+RgbPicture GuiPicture::read() const {
+  RgbPicture result;
   if (!target_) return result;
   result.width = target_->width(), result.height = target_->height();
   const auto row = static_cast<std::ptrdiff_t>(3 * result.width);

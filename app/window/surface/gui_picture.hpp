@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 
-#include "app/window/surface/gui_surface.hpp"
+#include "app/window/surface/rgb_picture.hpp"
 #include "render/gl/render_target.hpp"
 
 namespace catchlight::app {
@@ -15,7 +15,7 @@ class GuiPicture {
   void draw(const glm::ivec2& size_px);
   /// Copies it to the window's own framebuffer.
   void show() const;
-  GuiSurface::Picture read() const;
+  RgbPicture read() const;
 
  private:
   std::optional<render::ColorTarget<1>> target_;

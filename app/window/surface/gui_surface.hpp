@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "app/window/surface/rgb_picture.hpp"
+
 namespace catchlight::app {
 
 /// A surface with a current OpenGL context and an ImGui context of its own; one lives at a time.
@@ -30,12 +32,8 @@ class GuiSurface {
   /// How many pixels of the screen a unit of length is that the layout is made in.
   virtual float scale() const = 0;
 
-  /// What the last frame showed: 8-bit RGB, rows from the top.
-  struct Picture {
-    int width = 0, height = 0;
-    std::vector<unsigned char> rgb;
-  };
-  virtual Picture picture() const = 0;
+  /// What the last frame showed.
+  virtual RgbPicture picture() const = 0;
 };
 
 /// A picture in memory, on the context that EGL gives without a screen. Time goes on by a sixtieth of a second a frame, and input

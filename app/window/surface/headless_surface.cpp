@@ -44,7 +44,7 @@ class HeadlessSurface final : public GuiSurface {
   void set_title(const std::string&) override {}
   float scale() const override { return 1; }
 
-  Picture picture() const override { return picture_.read(); }
+  RgbPicture picture() const override { return picture_.read(); }
 
  private:
   std::unique_ptr<render::GlContext> context_;

@@ -93,7 +93,7 @@ class WindowSurface final : public GuiSurface {
   std::vector<std::string> take_dropped_files() override { return std::exchange(dropped_, {}); }
   void set_title(const std::string& title) override { glfwSetWindowTitle(window_.get(), title.c_str()); }
   float scale() const override { return scale_; }
-  Picture picture() const override { return picture_.read(); }
+  RgbPicture picture() const override { return picture_.read(); }
 
  private:
   Glfw glfw_;
