@@ -65,6 +65,9 @@ class Session {
   /// A frame may be rendered again, with other settings; it counts once.
   void render(FrameJob& job);
 
+  /// The layers of a frame that render() drew, as compositing packages take them. What is drawn later does not know of it.
+  Layers layers(const FrameJob& job) { return renderer_.layers(job); }
+
   /// Takes a frame that is not to be drawn: the exposure adapts to it as well.
   void skip(FrameJob& job) { renderer_.skip(job); }
 

@@ -1,6 +1,7 @@
 #include "app/session/shot_renderer.hpp"
 
 #include "app/media/pixels/full_color.hpp"
+#include "app/media/pixels/untouched_layers.hpp"
 #include "app/session/frame_view.hpp"
 #include "app/settings/look.hpp"
 #include "app/settings/parameters.hpp"
@@ -128,6 +129,12 @@ void ShotRenderer::draw(FrameJob& job) {
   job.result = compositor_->render(job.view, reader(job.image), wanted_.layers, take);
   const bool is_taken = job.result.rgba.empty() && !job.result.rect.empty();
   if (writer && is_taken) job.image = std::move(*writer).finish();
+}
+
+Layers ShotRenderer::layers(const FrameJob& job) {
+  if (!job.track.found) return untouched_layers(job.image);
+  prepare();
+  return *compositor_->render(job.view, reader(job.image), true).layers;
 }
 
 void ShotRenderer::skip(FrameJob& job) {

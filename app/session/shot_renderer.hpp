@@ -54,6 +54,10 @@ class ShotRenderer {
   /// Sets job.view and job.result; a result without pixels was written into job.image.
   void render(FrameJob& job);
 
+  /// The layers of a frame that render() drew, by its job.view: of one without a pose, empty ones over the plate. `job.image` is
+  /// the footage's own.
+  Layers layers(const FrameJob& job);
+
   /// The exposure adapts to frames that are not drawn, too: it must see every frame of the footage, in order.
   void skip(FrameJob& job);
 

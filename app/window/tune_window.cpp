@@ -13,6 +13,7 @@
 #include "app/settings/change_cost.hpp"
 #include "app/settings/parameters.hpp"
 #include "app/settings/scene_file_edit.hpp"
+#include "app/window/picture/view_choice.hpp"
 #include "app/window/surface/gui_keys.hpp"
 #include "catchlight/error.hpp"
 #include "render/image/picture_file.hpp"
@@ -111,9 +112,9 @@ void TuneWindow::save(const std::string& path) {
 }
 
 bool TuneWindow::is_idle() const {
-  const bool asks_nothing_new =
-      !player_ || (wished_position_ == playhead_.position() && wished_rung_ == rung() && wished_settings_ && player_->is_idle() &&
-                   costs_of_change(*wished_settings_, history_->now()).empty());
+  const bool asks_nothing_new = !player_ || (wished_position_ == playhead_.position() && wished_rung_ == rung() &&
+                                             wished_extras_ == picture_view_.wanted() && wished_settings_ && player_->is_idle() &&
+                                             costs_of_change(*wished_settings_, history_->now()).empty());
   return asks_nothing_new && screenshot_.empty() && !playhead_.is_playing() && (!player_ || shown_ == player_->newest());
 }
 
@@ -137,13 +138,15 @@ void TuneWindow::ask_player() {
     for (const render::PassTime& pass : shown_->pass_times) full_ms_ += pass.ms;
   }
   const Rung wanted = rung();
-  const bool is_new = wished_position_ != playhead_.position() || wished_rung_ != wanted || !wished_settings_ ||
+  const bool is_new = wished_position_ != playhead_.position() || wished_rung_ != wanted ||
+                      wished_extras_ != picture_view_.wanted() || !wished_settings_ ||
                       !costs_of_change(*wished_settings_, history_->now()).empty();
   if (!is_new) return;
   wished_position_ = playhead_.position();
   wished_rung_ = wanted;
+  wished_extras_ = picture_view_.wanted();
   wished_settings_ = history_->now();
-  player_->wish(*wished_settings_, wished_position_, wanted);
+  player_->wish(*wished_settings_, wished_position_, wanted, wished_extras_);
 }
 
 void TuneWindow::take_keys() {
@@ -179,33 +182,10 @@ void TuneWindow::draw_top() {
   if (button("A", is_open && history_->has(0), "flip to the settings kept as A")) history_->take(0);
   if (button("keep B", is_open, "shift+b")) history_->keep(1);
   if (button("B", is_open && history_->has(1), "flip to the settings kept as B")) history_->take(1);
-  draw_views();
+  draw_view_choice(picture_view_, shown_.get(), items_);
   if (button("fit", is_open, "the whole picture (f)")) picture_view_.fit();
   if (button("1:1", is_open, "pixel by pixel (1)")) picture_view_.actual_size();
   if (button("?", true, "keys (f1)")) shows_help_ = !shows_help_;
-}
-
-/// What the picture shows.
-void TuneWindow::draw_views() {
-  const bool has_truth = shown_ && !shown_->truth.rgb.empty();
-  View& view = picture_view_.view;
-  for (const std::string& name : name_list<View>()) {
-    if (name == name_of(View::truth) && !has_truth) continue;
-    if (ImGui::RadioButton(name.c_str(), name == name_of(view))) view = *value_named<View>(name);
-    items_.note("view " + name);
-    ImGui::SameLine();
-  }
-  if (view == View::difference) {
-    ImGui::SetNextItemWidth(100 * surface_.scale());
-    ImGui::SliderFloat("gain", &picture_view_.gain, 1, 64, "%.0f", ImGuiSliderFlags_Logarithmic);
-    items_.note("gain");
-    ImGui::SameLine();
-  }
-  const bool compares = view == View::split || view == View::flicker || view == View::difference;
-  if (!compares || !has_truth) return;
-  ImGui::Checkbox("against truth", &picture_view_.against_truth);
-  items_.note("against truth");
-  ImGui::SameLine();
 }
 
 void TuneWindow::draw_picture() {

@@ -50,7 +50,6 @@ class TuneWindow final : public ScriptTarget {
   void take_keys();
   bool button(const char* name, bool is_possible, const char* help);
   void draw_top();
-  void draw_views();
   void draw_picture();
   void draw_side();
   void draw_bottom();
@@ -68,6 +67,7 @@ class TuneWindow final : public ScriptTarget {
   std::optional<SceneSettings> wished_settings_;
   std::int64_t wished_position_ = -1;
   Rung wished_rung_ = Rung::full;
+  FrameExtras wished_extras_;
   double full_ms_ = 0;  ///< what a frame of full quality took to draw
   Playhead playhead_;
   PictureView picture_view_;

@@ -1,7 +1,6 @@
 #include "app/media/write/exr_layers.hpp"
 
-#include <limits>
-
+#include "app/media/pixels/untouched_layers.hpp"
 #include "app/media/read/sequence.hpp"
 #include "app/media/write/output_sequence.hpp"
 #include "app/media/write/timecode.hpp"
@@ -9,31 +8,11 @@
 #include "catchlight/composite.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/image.hpp"
-#include "catchlight/plate.hpp"
 #include "render/image/image_io.hpp"
 
 namespace catchlight::app {
 
 namespace {
-
-Image filled(int width, int height, int channels, float value) {
-  Image image(width, height, channels);
-  std::fill(image.data.begin(), image.data.end(), value);
-  return image;
-}
-
-/// The layers of a frame that nothing virtual reached.
-Layers untouched_layers(const Frame& frame) {
-  const int width = frame.width_px(), height = frame.height_px();
-  Layers layers;
-  layers.plate = Image(width, height);
-  layers.plate.data = linear_rgb(frame.rgb({0, 0, width, height}), frame.color());
-  layers.object = filled(width, height, 4, 0.0f);
-  layers.shadow = filled(width, height, 3, 1.0f);
-  layers.reflection = layers.glare = layers.normal = filled(width, height, 3, 0.0f);
-  layers.depth = filled(width, height, 1, std::numeric_limits<float>::infinity());
-  return layers;
-}
 
 Image coverage(const Image& object) {
   Image alpha(object.width, object.height, 1);

@@ -9,7 +9,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "catchlight/color.hpp"
+#include "app/window/picture/false_colors.hpp"
+#include "app/window/picture/pixel_text.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -35,34 +36,20 @@ void upload(const render::GlTexture& texture, const RgbPicture& picture) {
   glTextureSubImage2D(texture.id(), 0, 0, 0, picture.width, picture.height, GL_RGB, GL_UNSIGNED_BYTE, picture.rgb.data());
 }
 
-/// Mid grey where both are the same, `gain` times their difference around it.
-RgbPicture difference(const RgbPicture& a, const RgbPicture& b, float gain) {
-  RgbPicture result{a.width, a.height, std::vector<unsigned char>(a.rgb.size())};
-  for (std::size_t i = 0; i < a.rgb.size(); ++i)
-    result.rgb[i] = static_cast<unsigned char>(std::clamp(128 + gain * (float{1} * a.rgb[i] - b.rgb[i]), 0.0f, 255.0f));
-  return result;
-}
-
-/// Stops below and above mid grey in false colours: dark ones violet to blue, mid grey grey, bright ones yellow to red; what is
-/// clipped white, what is crushed black.
-RgbPicture zones(const RgbPicture& picture) {
-  static constexpr unsigned char kColors[9][3] = {{70, 0, 110},   {50, 30, 170},  {30, 90, 200},  {30, 150, 140}, {120, 120, 120},
-                                                  {110, 170, 60}, {220, 210, 50}, {240, 140, 30}, {230, 50, 40}};
-  static const std::array<double, 256> light_of_code = [] {
-    std::array<double, 256> light{};
-    for (std::size_t code = 0; code < 256; ++code) light[code] = linear_from_srgb(static_cast<double>(code) / 255);
-    return light;
-  }();
-  RgbPicture result{picture.width, picture.height, std::vector<unsigned char>(picture.rgb.size())};
-  for (std::size_t i = 0; i + 2 < picture.rgb.size(); i += 3) {
-    const unsigned char* code = &picture.rgb[i];
-    const int brightest = std::max({code[0], code[1], code[2]});
-    const double light = 0.2126 * light_of_code[code[0]] + 0.7152 * light_of_code[code[1]] + 0.0722 * light_of_code[code[2]];
-    const auto stop = static_cast<int>(std::lround(std::log2(std::max(light, 1e-6) / 0.18)));
-    const unsigned char* color = kColors[std::clamp(stop, -4, 4) + 4];
-    for (std::size_t c = 0; c < 3; ++c) result.rgb[i + c] = brightest >= 254 ? 255 : brightest <= 1 ? 0 : color[c];
+/// Which colour stands for which exposure, in the corner of the picture's room.
+void draw_legend(float line_px) {
+  const std::vector<Zone>& zones = exposure_zones();
+  const ImVec2 corner = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  const float width = 6.5f * line_px, height = line_px * static_cast<float>(zones.size()) + line_px;
+  const ImVec2 from{corner.x + line_px / 2, corner.y + size.y - height - line_px / 2};
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  list->AddRectFilled(from, {from.x + width, from.y + height}, IM_COL32(20, 20, 20, 220), 2);
+  for (std::size_t i = 0; i < zones.size(); ++i) {
+    const Zone& zone = zones[zones.size() - 1 - i];
+    const ImVec2 at{from.x + line_px / 2, from.y + line_px / 2 + line_px * static_cast<float>(i)};
+    list->AddRectFilled(at, {at.x + 1.5f * line_px, at.y + line_px - 1}, IM_COL32(zone.rgb[0], zone.rgb[1], zone.rgb[2], 255));
+    list->AddText({at.x + 2 * line_px, at.y}, IM_COL32(220, 220, 220, 255), zone.meaning.c_str());
   }
-  return result;
 }
 
 }  // namespace
@@ -90,6 +77,16 @@ void PictureView::take_input(const Place& place, const glm::vec2& size_px) {
   zoom_ = zoom;
 }
 
+FrameExtras PictureView::wanted() const {
+  FrameExtras extras;
+  if (is_layer(view)) extras.layer = view;
+  return extras;
+}
+
+bool PictureView::shows_layer(const DrawnFrame& frame) const {
+  return frame.layer && frame.layer->view == view;
+}
+
 void PictureView::upload(const DrawnFrame& frame) {
   const RgbPicture &plate = frame.plate, &composite = frame.composite;
   const bool has_truth = !frame.truth.rgb.empty();
@@ -103,6 +100,8 @@ void PictureView::upload(const DrawnFrame& frame) {
     app::upload(first_, difference(composite, other, gain));
   else if (view == View::zones)
     app::upload(first_, zones(composite));
+  else if (shows_layer(frame))
+    app::upload(first_, frame.layer->picture);
   else
     app::upload(first_, view == View::plate ? plate : view == View::truth && has_truth ? frame.truth : composite);
   if (view == View::split || view == View::flicker) app::upload(second_, other);
@@ -128,12 +127,10 @@ void PictureView::look_under_pointer(const DrawnFrame& frame, const Place& place
   pointed_px_ = glm::dvec2(pointed) - 0.5;  // (0, 0) is the middle of the first pixel
   if (!ImGui::IsWindowHovered() || pixel.x < 0 || pixel.y < 0 || pixel.x >= frame.plate.width || pixel.y >= frame.plate.height)
     return;
-  const std::size_t at = 3 * (static_cast<std::size_t>(pixel.y) * frame.plate.width + static_cast<std::size_t>(pixel.x));
-  const unsigned char *now = &frame.composite.rgb[at], *plate = &frame.plate.rgb[at];
-  char text[128];
-  std::snprintf(text, sizeof text, "(%d, %d)  composite %d %d %d  plate %d %d %d", pixel.x, pixel.y, now[0], now[1], now[2],
-                plate[0], plate[1], plate[2]);
-  pixel_text_ = text;
+  pixel_text_ = '(' + std::to_string(pixel.x) + ", " + std::to_string(pixel.y) + ")  ";
+  if (shows_layer(frame)) pixel_text_ += layer_text(*frame.layer, pixel.x, pixel.y) + "  ";
+  if (frame.composited) pixel_text_ += "composite " + app::pixel_text(*frame.composited, pixel.x, pixel.y) + "  ";
+  if (frame.image && !shows_layer(frame)) pixel_text_ += "plate " + app::pixel_text(*frame.image, pixel.x, pixel.y);
 }
 
 void PictureView::draw(const std::shared_ptr<const DrawnFrame>& frame, GuiItems& items) {
@@ -150,6 +147,7 @@ void PictureView::draw(const std::shared_ptr<const DrawnFrame>& frame, GuiItems&
   ImGui::GetWindowDrawList()->AddImage(id_of(shows_second ? second_ : first_), im(where.corner_px),
                                        im(where.corner_px + where.zoom * size));
   if (view == View::split) draw_split(where, size);
+  if (view == View::zones) draw_legend(ImGui::GetTextLineHeight());
   look_under_pointer(*frame, where);
   ImGui::SetCursorScreenPos(im(where.corner_px));
   ImGui::Dummy(im(where.zoom * size));

@@ -1,7 +1,6 @@
 // The picture in the middle of the window.
 #pragma once
 
-#include <array>
 #include <glm/glm.hpp>
 #include <memory>
 #include <string>
@@ -12,11 +11,6 @@
 
 namespace catchlight::app {
 
-enum class View { composite, plate, truth, split, flicker, difference, zones };
-constexpr auto names_of(View) {
-  return std::array{"composite", "plate", "truth", "split", "flicker", "difference", "zones"};
-}
-
 class PictureView {
  public:
   View view = View::composite;
@@ -26,6 +20,9 @@ class PictureView {
   /// Draws the frame into the current ImGui window, as large as fits or as it is zoomed: the wheel zooms, the middle button
   /// moves.
   void draw(const std::shared_ptr<const DrawnFrame>& frame, GuiItems& items);
+
+  /// What has to be drawn of a frame beside its composite, for this view.
+  FrameExtras wanted() const;
 
   /// The whole picture in the window.
   void fit() { zoom_ = 0; }
@@ -44,6 +41,7 @@ class PictureView {
     glm::vec2 corner_px;  ///< of the picture, on the screen
     float zoom;
   };
+  bool shows_layer(const DrawnFrame& frame) const;
   Place place(const DrawnFrame& frame) const;
   void take_input(const Place& place, const glm::vec2& size_px);
   void upload(const DrawnFrame& frame);

@@ -38,9 +38,9 @@ ShotPlayer::ShotPlayer(Recording recording) : recording_(std::move(recording)) {
 
 ShotPlayer::~ShotPlayer() = default;
 
-std::uint64_t ShotPlayer::wish(const SceneSettings& settings, std::int64_t position, Rung rung) {
+std::uint64_t ShotPlayer::wish(const SceneSettings& settings, std::int64_t position, Rung rung, const FrameExtras& extras) {
   const std::lock_guard lock(mutex_);
-  next_ = Wish{++last_wish_, settings, position, rung};
+  next_ = Wish{++last_wish_, settings, position, rung, extras};
   wished_.notify_one();
   return last_wish_;
 }
@@ -81,6 +81,7 @@ void ShotPlayer::show_footage() {
   auto shown = std::make_shared<DrawnFrame>();
   shown->number = frame->number(), shown->time_s = frame->time_s();
   shown->plate = shown->composite = rgb_of(*frame);
+  shown->image = shown->composited = frame;
   publish(std::move(shown));
 }
 
@@ -110,6 +111,13 @@ RgbPicture ShotPlayer::truth_of(const Frame& frame) const {
   return {rgb.cols, rgb.rows, {rgb.datastart, rgb.dataend}};
 }
 
+/// What is looked at beside the composite, over the plate as it was before that.
+void ShotPlayer::draw_extras(const FrameExtras& extras, const FrameJob& job, const Frame& plate, DrawnFrame& drawn) {
+  if (!extras.layer) return;
+  FrameJob again{.image = plate, .track = job.track, .view = job.view};
+  drawn.layer = picture_of_layer(session_->layers(again), *extras.layer, plate.color());
+}
+
 void ShotPlayer::draw(const Wish& wish) {
   const auto start = std::chrono::steady_clock::now();
   session_->apply(wish.rung == Rung::full ? wish.settings : quicker(wish.settings));
@@ -122,11 +130,15 @@ void ShotPlayer::draw(const Wish& wish) {
   drawn->number = job->image.number(), drawn->time_s = job->image.time_s();
   drawn->plate = rgb_of(job->image);
   drawn->truth = truth_of(job->image);
+  const Frame plate = job->image;
   session_->render(*job);
-  drawn->composite = job->result.rect.empty() ? drawn->plate : rgb_of(job->image.with_composite(job->result));
+  drawn->image = plate;
+  drawn->composited = job->image.with_composite(job->result);
+  drawn->composite = job->result.rect.empty() ? drawn->plate : rgb_of(*drawn->composited);
   drawn->track = job->track;
   drawn->camera = session_->camera();
   drawn->pass_times = session_->renderer().pass_times();
+  draw_extras(wish.extras, *job, plate, *drawn);
   drawn->draw_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   publish(std::move(drawn));
   std::vector<PlanEntry> plan = session_->plan();

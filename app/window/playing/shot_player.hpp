@@ -11,9 +11,12 @@
 #include <thread>
 #include <vector>
 
+#include "app/media/pixels/frame.hpp"
 #include "app/session/plan.hpp"
 #include "app/session/recording.hpp"
 #include "app/support/log.hpp"
+#include "app/window/playing/frame_extras.hpp"
+#include "app/window/playing/layer_picture.hpp"
 #include "app/window/surface/rgb_picture.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/track.hpp"
@@ -21,6 +24,7 @@
 
 namespace catchlight::app {
 
+struct FrameJob;
 class Session;
 
 /// How well a frame is drawn.
@@ -40,8 +44,10 @@ struct DrawnFrame {
   Rung rung = Rung::full;
   std::uint64_t wish = 0;  ///< the wish that it fulfils; 0: the footage alone, before anything could be drawn
   RgbPicture plate;
-  RgbPicture composite;  ///< as `overlay` writes it
-  RgbPicture truth;      ///< empty where the recording has none for the frame
+  RgbPicture composite;                    ///< as `overlay` writes it
+  RgbPicture truth;                        ///< empty where the recording has none for the frame
+  std::optional<Frame> image, composited;  ///< what both were made of
+  std::optional<LayerPicture> layer;       ///< where one was asked for
   TrackRow track;
   CameraModel camera;
   std::vector<render::PassTime> pass_times;
@@ -70,7 +76,8 @@ class ShotPlayer {
   ShotPlayer& operator=(const ShotPlayer&) = delete;
 
   /// Asks for a frame under these settings. What was asked for before and has not begun is left out. The number of the wish.
-  std::uint64_t wish(const SceneSettings& settings, std::int64_t position, Rung rung = Rung::full);
+  std::uint64_t wish(const SceneSettings& settings, std::int64_t position, Rung rung = Rung::full,
+                     const FrameExtras& extras = {});
 
   /// The newest frame drawn; null before the first.
   std::shared_ptr<const DrawnFrame> newest() const;
@@ -86,11 +93,13 @@ class ShotPlayer {
     SceneSettings settings;
     std::int64_t position = 0;
     Rung rung = Rung::full;
+    FrameExtras extras;
   };
 
   void run(const std::stop_token& stop);
   void open(const std::stop_token& stop);
   void draw(const Wish& wish);
+  void draw_extras(const FrameExtras& extras, const FrameJob& job, const Frame& plate, DrawnFrame& drawn);
   RgbPicture truth_of(const Frame& frame) const;
   void show_footage();
   void publish(std::shared_ptr<const DrawnFrame> frame);

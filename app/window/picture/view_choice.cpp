@@ -1,0 +1,79 @@
+#include "app/window/picture/view_choice.hpp"
+
+#include <imgui.h>
+
+#include "catchlight/util/enum_names.hpp"
+
+namespace catchlight::app {
+namespace {
+
+const char* help_of(View view) {
+  switch (view) {
+    case View::split:
+      return "plate and composite beside an edge that is dragged";
+    case View::flicker:
+      return "plate and composite in turn";
+    case View::difference:
+      return "composite less plate, enlarged";
+    case View::zones:
+      return "exposure in stops around mid grey";
+    case View::object:
+      return "the object's light alone";
+    case View::reflection:
+      return "what of it is mirrored";
+    case View::shadow:
+      return "how much of its light the receiver keeps";
+    case View::glare:
+      return "what the lens spills";
+    case View::normals:
+      return "where surfaces face: x red, y green, z blue";
+    case View::depth:
+      return "distance: near white, far dark";
+    default:
+      return "";
+  }
+}
+
+void draw_entries(PictureView& picture, bool has_truth, GuiItems& items) {
+  for (const std::string& name : name_list<View>()) {
+    const View view = *value_named<View>(name);
+    if (view == View::truth && !has_truth) continue;
+    if (view == View::object) ImGui::Separator();
+    if (ImGui::MenuItem(name.c_str(), help_of(view), view == picture.view)) picture.view = view;
+    items.note("view " + name);
+  }
+}
+
+/// A button whose menu hangs below it.
+bool begin_menu(const std::string& text, const std::string& name, GuiItems& items) {
+  if (ImGui::Button((text + " ▾###" + name).c_str())) ImGui::OpenPopup(name.c_str());
+  items.note(name);
+  const GuiItems::Rect button = *items.find(name);
+  ImGui::SetNextWindowPos({button.min.x, button.max.y});
+  ImGui::SameLine();
+  return ImGui::BeginPopup(name.c_str());
+}
+
+}  // namespace
+
+void draw_view_choice(PictureView& picture, const DrawnFrame* frame, GuiItems& items) {
+  const bool has_truth = frame && !frame->truth.rgb.empty();
+  if (begin_menu("view: " + name_of(picture.view), "view", items)) {
+    draw_entries(picture, has_truth, items);
+    ImGui::EndPopup();
+  }
+  const View view = picture.view;
+  if (view == View::difference) {
+    ImGui::SetNextItemWidth(7 * ImGui::GetTextLineHeight());
+    ImGui::SliderFloat("gain", &picture.gain, 1, 64, "%.0f", ImGuiSliderFlags_Logarithmic);
+    items.note("gain");
+    ImGui::SameLine();
+  }
+  const bool compares = view == View::split || view == View::flicker || view == View::difference;
+  if (!compares || !has_truth) return;
+  ImGui::Checkbox("against truth", &picture.against_truth);
+  items.note("against truth");
+  ImGui::SameLine();
+}
+
+}  // namespace catchlight::app

@@ -1,0 +1,39 @@
+// What a person looks at, and what of it has to be drawn beside the composite.
+#pragma once
+
+#include <array>
+#include <optional>
+
+namespace catchlight::app {
+
+enum class View {
+  composite,
+  plate,
+  truth,
+  split,
+  flicker,
+  difference,
+  zones,
+  object,  ///< this and all that follow are layers, drawn only where they are looked at
+  reflection,
+  shadow,
+  glare,
+  normals,
+  depth
+};
+constexpr auto names_of(View) {
+  return std::array{"composite", "plate",      "truth",  "split", "flicker", "difference", "zones",
+                    "object",    "reflection", "shadow", "glare", "normals", "depth"};
+}
+
+inline bool is_layer(View view) {
+  return view >= View::object;
+}
+
+/// What is drawn of a frame beside its composite, which stays the same.
+struct FrameExtras {
+  std::optional<View> layer;  ///< one of the layers
+  bool operator==(const FrameExtras&) const = default;
+};
+
+}  // namespace catchlight::app

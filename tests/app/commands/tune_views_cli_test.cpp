@@ -1,0 +1,41 @@
+// What the window's picture can show, by scripts.
+#include <gmock/gmock.h>
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/support/run_command.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace catchlight::tests {
+namespace {
+
+const std::string kMatte = std::string(CATCHLIGHT_SOURCE_DIR) + "/recordings/matte";
+
+/// How far two pictures of the window are apart where the footage is shown.
+double difference_in_picture(const std::string& one, const std::string& other) {
+  const cv::Rect picture(72, 42, 764, 572);
+  return cv::norm(cv::imread(one)(picture), cv::imread(other)(picture), cv::NORM_L1) / picture.area();
+}
+
+TEST(TuneViews, EachShowsAnotherPictureAndLeavesTheComposite) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> views = {"plate",      "truth",  "split", "difference", "zones", "object",
+                                          "reflection", "shadow", "glare", "normals",    "depth"};
+  std::string script =
+      "seek 5\nwait\nscreenshot " + folder.path("composite.png") + "\npicture " + folder.path("before.png") + "\n";
+  for (const std::string& view : views)
+    script += "click view\nclick view " + view + "\nwait\nscreenshot " + folder.path(view + ".png") + "\nwait\n";
+  script += "picture " + folder.path("after.png") + "\nquit\n";
+  const CommandResult result = run_catchlight({"tune", kMatte, "--headless", "--ui-script", folder.write("views.txt", script)});
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  for (const std::string& view : views)
+    EXPECT_GT(difference_in_picture(folder.path(view + ".png"), folder.path("composite.png")), 0.1) << view;
+  const cv::Mat before = cv::imread(folder.path("before.png")), after = cv::imread(folder.path("after.png"));
+  EXPECT_EQ(cv::norm(before, after, cv::NORM_INF), 0) << "the composite is the same whatever is looked at";
+}
+
+}  // namespace
+}  // namespace catchlight::tests
