@@ -1,33 +1,28 @@
 #include "app/session/debug_drawing.hpp"
 
-#include <cstdio>
-#include <cstring>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <opencv2/imgproc.hpp>
-#include <optional>
 
+#include "app/session/track_sketch.hpp"
 #include "app/support/lettering.hpp"
 #include "catchlight/pixel_rect.hpp"
 #include "catchlight/plate.hpp"
-#include "catchlight/projection.hpp"
-#include "catchlight/rigid_transform.hpp"
-#include "catchlight/tag.hpp"
-#include "catchlight/util/enum_names.hpp"
 
 namespace catchlight::app {
 namespace {
 
-const cv::Scalar kBlack(0, 0, 0), kWhite(255, 255, 255), kMagenta(255, 0, 255), kRed(255, 0, 0), kGreen(0, 255, 0),
-    kBlue(0, 0, 255), kLightGreen(140, 255, 140), kOrange(255, 180, 60), kLightRed(255, 150, 150);
+constexpr Rgb kBlack{0, 0, 0};
 constexpr int kFractionBits = 8;  // bits of fraction in the coordinates that OpenCV draws lines between
 
-struct Stroke {
-  std::vector<glm::dvec2> points_px;
-  cv::Scalar color;
-};
+cv::Scalar scalar(const Rgb& color) {
+  return {double(color[0]), double(color[1]), double(color[2])};
+}
 
 struct Label {
   std::string text;
-  cv::Scalar color;
+  Rgb color;
   cv::Point baseline_px;
 };
 
@@ -42,65 +37,19 @@ struct Sketch {
   int halo_px() const { return stroke_px() + 2 * std::max(1, static_cast<int>(std::lround(unit_px))); }
 };
 
-/// The pixel at which the lens shows a point. Empty behind the camera, and beyond the field in which the lens model is one to
-/// one: there it would fold back into the picture.
-std::optional<glm::dvec2> seen_px(const CameraModel& camera, const glm::dvec3& point_camera_m) {
-  const auto ideal_px = project_ideal_px(camera, point_camera_m);
-  const auto px = project_px(camera, point_camera_m);
-  if (!px || glm::length(*px) > 1e5) return std::nullopt;  // far beyond any picture
-  const auto back_px = undistort_px(camera, *px);
-  return back_px && glm::distance(*back_px, *ideal_px) < 0.01 ? px : std::nullopt;
-}
-
-/// Adds those pieces that can be seen of a straight line on or above the tag; the lens may bend it.
-void add_line(Sketch& sketch, const CameraModel& camera, const RigidTransform& camera_from_tag, const glm::dvec3& from_m,
-              const glm::dvec3& to_m, const cv::Scalar& color) {
-  constexpr int kPieces = 16;
-  Stroke stroke{{}, color};
-  for (int i = 0; i <= kPieces; ++i) {
-    const auto px = seen_px(camera, camera_from_tag * glm::mix(from_m, to_m, static_cast<double>(i) / kPieces));
-    if (px) {
-      stroke.points_px.push_back(*px);
-      continue;
-    }
-    if (stroke.points_px.size() > 1) sketch.strokes.push_back(stroke);
-    stroke.points_px.clear();
-  }
-  if (stroke.points_px.size() > 1) sketch.strokes.push_back(stroke);
+void add(Sketch& sketch, std::vector<Stroke> strokes) {
+  std::ranges::move(strokes, std::back_inserter(sketch.strokes));
 }
 
 void add_tag(Sketch& sketch, const CameraModel& camera, const RigidTransform& camera_from_tag, double tag_size_m) {
-  const double half_m = tag_size_m / 2, arm_px = 5 * sketch.unit_px;
-  const auto corners_m = tag_corners_m(tag_size_m);
-  for (int i = 0; i < 4; ++i) add_line(sketch, camera, camera_from_tag, corners_m[i], corners_m[(i + 1) % 4], kWhite);
-  const cv::Scalar axis_colors[] = {kRed, kGreen, kBlue};
-  for (int axis = 0; axis < 3; ++axis) {
-    glm::dvec3 end_m(0.0);
-    end_m[axis] = half_m;
-    add_line(sketch, camera, camera_from_tag, glm::dvec3(0.0), end_m, axis_colors[axis]);
-  }
-  for (const glm::dvec3& corner_m : corners_m) {
-    const auto px = seen_px(camera, camera_from_tag * corner_m);
-    if (!px) continue;
-    for (const glm::dvec2& arm : {glm::dvec2(arm_px, 0), glm::dvec2(0, arm_px)})
-      sketch.strokes.push_back({{*px - arm, *px + arm}, kMagenta});
-  }
-}
-
-const cv::Scalar& color_of(TrackState state) {
-  if (state == TrackState::lost) return kLightRed;
-  return state == TrackState::tracking ? kLightGreen : kOrange;
+  add(sketch, outline_strokes(camera, camera_from_tag, tag_size_m));
+  add(sketch, axis_strokes(camera, camera_from_tag, tag_size_m));
+  add(sketch, corner_strokes(camera, camera_from_tag, tag_size_m, 5 * sketch.unit_px));
 }
 
 /// Adds the labels in the top left corner, as wide as the picture at most.
 void add_labels(Sketch& sketch, const TrackRow& row, int width_px) {
-  sketch.labels.push_back({"frame " + std::to_string(row.frame) + "  " + name_of(row.state), color_of(row.state), {}});
-  if (row.state == TrackState::tracking) {
-    char text[80];
-    std::snprintf(text, sizeof text, "corners +-%.3f px  residual %.1f codes  ambiguity %.2f", row.corner_sigma_px,
-                  row.noise_codes, row.ambiguity);
-    sketch.labels.push_back({text, kWhite, {}});
-  }
+  for (SketchLine& line : state_lines(row)) sketch.labels.push_back({std::move(line.text), line.color, {}});
   const int margin_px = static_cast<int>(std::lround(10 * sketch.unit_px));
   sketch.capital_px = std::max(11.5 * sketch.unit_px, 8.5);  // smaller letters cannot be read
   int widest_px = 1;
@@ -143,11 +92,11 @@ void draw(const Sketch& sketch, cv::Mat& canvas, const cv::Point& origin_px) {
     const int thickness = halo ? sketch.halo_px() : sketch.stroke_px();
     for (const Stroke& stroke : sketch.strokes)
       for (std::size_t i = 1; i < stroke.points_px.size(); ++i)
-        cv::line(canvas, fixed_point(stroke.points_px[i - 1]), fixed_point(stroke.points_px[i]), halo ? kBlack : stroke.color,
-                 thickness, cv::LINE_AA, kFractionBits);
+        cv::line(canvas, fixed_point(stroke.points_px[i - 1]), fixed_point(stroke.points_px[i]),
+                 scalar(halo ? kBlack : stroke.color), thickness, cv::LINE_AA, kFractionBits);
     for (const Label& label : sketch.labels)
       write_text(canvas, label.text, {label.baseline_px.x - origin_px.x, label.baseline_px.y - origin_px.y}, sketch.capital_px,
-                 halo ? kBlack : label.color, thickness);
+                 scalar(halo ? kBlack : label.color), thickness);
   }
 }
 

@@ -54,7 +54,7 @@ void draw_legend(float line_px) {
 
 }  // namespace
 
-PictureView::Place PictureView::place(const DrawnFrame& frame) const {
+PicturePlace PictureView::place(const DrawnFrame& frame) const {
   const glm::vec2 room = vec(ImGui::GetContentRegionAvail()), size(frame.plate.width, frame.plate.height);
   const float zoom = zoom_ > 0 ? zoom_ : std::max(std::min(room.x / size.x, room.y / size.y), kMinZoom);
   const glm::vec2 moved = zoom_ > 0 ? moved_px_ : glm::vec2(0);
@@ -62,7 +62,7 @@ PictureView::Place PictureView::place(const DrawnFrame& frame) const {
 }
 
 /// The wheel zooms around the pointer.
-void PictureView::take_input(const Place& place, const glm::vec2& size_px) {
+void PictureView::take_input(const PicturePlace& place, const glm::vec2& size_px) {
   const ImGuiIO& io = ImGui::GetIO();
   if (!ImGui::IsWindowHovered()) return;
   if (ImGui::IsMouseDragging(ImGuiMouseButton_Middle, 0)) {
@@ -80,6 +80,7 @@ void PictureView::take_input(const Place& place, const glm::vec2& size_px) {
 FrameExtras PictureView::wanted() const {
   FrameExtras extras;
   if (is_layer(view)) extras.layer = view;
+  overlays.add_wanted(extras);
   return extras;
 }
 
@@ -109,7 +110,7 @@ void PictureView::upload(const DrawnFrame& frame) {
 }
 
 /// The plate, or the truth, left of an edge that can be dragged, the composite right of it.
-void PictureView::draw_split(const Place& place, const glm::vec2& size_px) {
+void PictureView::draw_split(const PicturePlace& place, const glm::vec2& size_px) {
   const glm::vec2 size = place.zoom * size_px;
   const float edge = place.corner_px.x + split_ * size.x;
   ImDrawList* list = ImGui::GetWindowDrawList();
@@ -120,7 +121,7 @@ void PictureView::draw_split(const Place& place, const glm::vec2& size_px) {
     split_ = std::clamp((x - place.corner_px.x) / size.x, 0.0f, 1.0f);
 }
 
-void PictureView::look_under_pointer(const DrawnFrame& frame, const Place& place) {
+void PictureView::look_under_pointer(const DrawnFrame& frame, const PicturePlace& place) {
   pixel_text_.clear();
   const glm::vec2 pointed = (vec(ImGui::GetIO().MousePos) - place.corner_px) / place.zoom;
   const glm::ivec2 pixel(glm::floor(pointed));
@@ -139,7 +140,7 @@ void PictureView::draw(const std::shared_ptr<const DrawnFrame>& frame, GuiItems&
   shown_ = frame;
   const glm::vec2 size(width_, height_);
   take_input(place(*frame), size);
-  const Place where = place(*frame);
+  const PicturePlace where = place(*frame);
   // Enlarged much, pixels are to be seen as they are.
   for (const render::GlTexture* texture : {&first_, &second_})
     glTextureParameteri(texture->id(), GL_TEXTURE_MAG_FILTER, where.zoom < kPixelZoom ? GL_LINEAR : GL_NEAREST);
@@ -147,6 +148,7 @@ void PictureView::draw(const std::shared_ptr<const DrawnFrame>& frame, GuiItems&
   ImGui::GetWindowDrawList()->AddImage(id_of(shows_second ? second_ : first_), im(where.corner_px),
                                        im(where.corner_px + where.zoom * size));
   if (view == View::split) draw_split(where, size);
+  overlays.draw(frame, where);
   if (view == View::zones) draw_legend(ImGui::GetTextLineHeight());
   look_under_pointer(*frame, where);
   ImGui::SetCursorScreenPos(im(where.corner_px));

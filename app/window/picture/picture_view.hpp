@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "app/window/picture/overlays.hpp"
 #include "app/window/playing/shot_player.hpp"
 #include "app/window/surface/gui_items.hpp"
 #include "render/gl/gl_objects.hpp"
@@ -14,7 +15,8 @@ namespace catchlight::app {
 class PictureView {
  public:
   View view = View::composite;
-  float gain = 8;              ///< of the difference
+  float gain = 8;  ///< of the difference
+  PictureOverlays overlays;
   bool against_truth = false;  ///< the composite is held against the truth instead of the plate, where there is one
 
   /// Draws the frame into the current ImGui window, as large as fits or as it is zoomed: the wheel zooms, the middle button
@@ -37,16 +39,12 @@ class PictureView {
   bool may_take_hold() const { return !pixel_text_.empty() && view != View::split; }
 
  private:
-  struct Place {
-    glm::vec2 corner_px;  ///< of the picture, on the screen
-    float zoom;
-  };
   bool shows_layer(const DrawnFrame& frame) const;
-  Place place(const DrawnFrame& frame) const;
-  void take_input(const Place& place, const glm::vec2& size_px);
+  PicturePlace place(const DrawnFrame& frame) const;
+  void take_input(const PicturePlace& place, const glm::vec2& size_px);
   void upload(const DrawnFrame& frame);
-  void draw_split(const Place& place, const glm::vec2& size_px);
-  void look_under_pointer(const DrawnFrame& frame, const Place& place);
+  void draw_split(const PicturePlace& place, const glm::vec2& size_px);
+  void look_under_pointer(const DrawnFrame& frame, const PicturePlace& place);
 
   std::shared_ptr<const DrawnFrame> shown_;
   View uploaded_view_ = View::composite;

@@ -2,6 +2,7 @@
 
 #include <imgui.h>
 
+#include "app/window/surface/gui_menu.hpp"
 #include "catchlight/util/enum_names.hpp"
 
 namespace catchlight::app {
@@ -44,16 +45,6 @@ void draw_entries(PictureView& picture, bool has_truth, GuiItems& items) {
   }
 }
 
-/// A button whose menu hangs below it.
-bool begin_menu(const std::string& text, const std::string& name, GuiItems& items) {
-  if (ImGui::Button((text + " ▾###" + name).c_str())) ImGui::OpenPopup(name.c_str());
-  items.note(name);
-  const GuiItems::Rect button = *items.find(name);
-  ImGui::SetNextWindowPos({button.min.x, button.max.y});
-  ImGui::SameLine();
-  return ImGui::BeginPopup(name.c_str());
-}
-
 }  // namespace
 
 void draw_view_choice(PictureView& picture, const DrawnFrame* frame, GuiItems& items) {
@@ -62,6 +53,7 @@ void draw_view_choice(PictureView& picture, const DrawnFrame* frame, GuiItems& i
     draw_entries(picture, has_truth, items);
     ImGui::EndPopup();
   }
+  picture.overlays.draw_choice(items);
   const View view = picture.view;
   if (view == View::difference) {
     ImGui::SetNextItemWidth(7 * ImGui::GetTextLineHeight());

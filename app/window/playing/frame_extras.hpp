@@ -33,6 +33,8 @@ inline bool is_layer(View view) {
 /// What is drawn of a frame beside its composite, which stays the same.
 struct FrameExtras {
   std::optional<View> layer;  ///< one of the layers
+  bool masks = false;         ///< what the object covers, and where it shadows
+  bool corners = false;       ///< the tag's corners as this frame alone shows them
   bool operator==(const FrameExtras&) const = default;
 };
 

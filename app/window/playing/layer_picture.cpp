@@ -1,15 +1,19 @@
 #include "app/window/playing/layer_picture.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdio>
+#include <limits>
 
+#include "catchlight/color.hpp"
 #include "catchlight/util/enum_names.hpp"
 #include "catchlight/util/text.hpp"
 
 namespace catchlight::app {
 namespace {
 
+constexpr std::array<unsigned char, 3> kObjectTint{255, 150, 40}, kShadowTint{70, 130, 255};
+constexpr float kMaxTint = 0.5f;
 constexpr float kFarthestCode = 40;  // dark, but told apart from where there is nothing
 
 unsigned char byte(double code) {
@@ -87,6 +91,28 @@ RgbPicture depth_picture(const Image& depth_m) {
 
 RgbPicture ratio_picture(const Image& ratio) {
   return made_of(ratio, [](const float* pixel, int c) { return kUnshadowedCode * pixel[c]; });
+}
+
+FrameMasks masks_of(const Layers& layers) {
+  FrameMasks masks;
+  for (std::size_t i = 0; i + 3 < layers.object.data.size(); i += 4)
+    masks.object.push_back(byte(255 * layers.object.data[i + 3]));
+  for (std::size_t i = 0; i + 2 < layers.shadow.data.size(); i += 3) {
+    const glm::dvec3 ratio(layers.shadow.data[i], layers.shadow.data[i + 1], layers.shadow.data[i + 2]);
+    masks.shadow.push_back(byte(255 * (1 - glm::dot(kLuminanceWeights, ratio))));
+  }
+  return masks;
+}
+
+std::vector<unsigned char> mask_tint(const FrameMasks& masks, bool has_object, bool has_shadow) {
+  std::vector<unsigned char> rgba(4 * masks.object.size());
+  for (std::size_t i = 0; i < masks.object.size(); ++i) {
+    const float object = has_object ? kMaxTint * static_cast<float>(masks.object[i]) : 0,
+                shadow = has_shadow ? kMaxTint * static_cast<float>(masks.shadow[i]) : 0, most = std::max(object, shadow);
+    std::ranges::copy(object >= shadow ? kObjectTint : kShadowTint, rgba.begin() + static_cast<std::ptrdiff_t>(4 * i));
+    rgba[4 * i + 3] = static_cast<unsigned char>(most);
+  }
+  return rgba;
 }
 
 std::string layer_text(const LayerPicture& layer, int x, int y) {

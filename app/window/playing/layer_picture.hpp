@@ -40,6 +40,15 @@ RgbPicture depth_picture(const Image& depth_m);
 inline constexpr int kUnshadowedCode = 191;
 RgbPicture ratio_picture(const Image& ratio);
 
+/// What the object covers of each pixel, and how much light it takes from it: 255 is all.
+struct FrameMasks {
+  std::vector<unsigned char> object, shadow;
+};
+FrameMasks masks_of(const Layers& layers);
+
+/// How the masks are laid over a picture: RGBA, 8 bits. The object orange, the shadow blue.
+std::vector<unsigned char> mask_tint(const FrameMasks& masks, bool has_object, bool has_shadow);
+
 /// What the layer holds at a pixel, in words.
 std::string layer_text(const LayerPicture& layer, int x, int y);
 

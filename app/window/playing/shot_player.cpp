@@ -113,9 +113,11 @@ RgbPicture ShotPlayer::truth_of(const Frame& frame) const {
 
 /// What is looked at beside the composite, over the plate as it was before that.
 void ShotPlayer::draw_extras(const FrameExtras& extras, const FrameJob& job, const Frame& plate, DrawnFrame& drawn) {
-  if (!extras.layer) return;
-  FrameJob again{.image = plate, .track = job.track, .view = job.view};
-  drawn.layer = picture_of_layer(session_->layers(again), *extras.layer, plate.color());
+  if (extras.corners) drawn.corners = corner_residuals(plate, job.track, drawn.camera, session_->settings());
+  if (!extras.layer && !extras.masks) return;
+  const Layers layers = session_->layers({.image = plate, .track = job.track, .view = job.view});
+  if (extras.layer) drawn.layer = picture_of_layer(layers, *extras.layer, plate.color());
+  if (extras.masks) drawn.masks = masks_of(layers);
 }
 
 void ShotPlayer::draw(const Wish& wish) {
@@ -137,6 +139,9 @@ void ShotPlayer::draw(const Wish& wish) {
   drawn->composite = job->result.rect.empty() ? drawn->plate : rgb_of(*drawn->composited);
   drawn->track = job->track;
   drawn->camera = session_->camera();
+  drawn->target = session_->settings().tag.target();
+  const render::ReceiverGrid& grid = session_->renderer().builder().scene().scene.transfer.grid;
+  if (grid.columns >= 2) drawn->receiver = {grid.min_m, grid.max_m};
   drawn->pass_times = session_->renderer().pass_times();
   draw_extras(wish.extras, *job, plate, *drawn);
   drawn->draw_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

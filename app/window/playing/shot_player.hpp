@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/media/pixels/frame.hpp"
+#include "app/session/corner_residuals.hpp"
 #include "app/session/plan.hpp"
 #include "app/session/recording.hpp"
 #include "app/support/log.hpp"
@@ -19,8 +20,10 @@
 #include "app/window/playing/layer_picture.hpp"
 #include "app/window/surface/rgb_picture.hpp"
 #include "catchlight/camera.hpp"
+#include "catchlight/tag.hpp"
 #include "catchlight/track.hpp"
 #include "render/pass_time.hpp"
+#include "render/transfer/plane_rect.hpp"
 
 namespace catchlight::app {
 
@@ -44,10 +47,14 @@ struct DrawnFrame {
   Rung rung = Rung::full;
   std::uint64_t wish = 0;  ///< the wish that it fulfils; 0: the footage alone, before anything could be drawn
   RgbPicture plate;
-  RgbPicture composite;                    ///< as `overlay` writes it
-  RgbPicture truth;                        ///< empty where the recording has none for the frame
-  std::optional<Frame> image, composited;  ///< what both were made of
-  std::optional<LayerPicture> layer;       ///< where one was asked for
+  RgbPicture composite;                       ///< as `overlay` writes it
+  RgbPicture truth;                           ///< empty where the recording has none for the frame
+  std::optional<Frame> image, composited;     ///< what both were made of
+  std::optional<LayerPicture> layer;          ///< where one was asked for
+  std::optional<FrameMasks> masks;            ///< as `layer`
+  std::vector<CornerResiduals> corners;       ///< as `layer`; of tags that the frame shows
+  std::optional<render::PlaneRect> receiver;  ///< where the receiver's shadow is known; none: there is no receiver
+  TagTarget target;
   TrackRow track;
   CameraModel camera;
   std::vector<render::PassTime> pass_times;

@@ -37,5 +37,25 @@ TEST(TuneViews, EachShowsAnotherPictureAndLeavesTheComposite) {
   EXPECT_EQ(cv::norm(before, after, cv::NORM_INF), 0) << "the composite is the same whatever is looked at";
 }
 
+TEST(TuneViews, OverlaysAreSwitchedOnAndOffAndLeaveTheComposite) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> overlays = {"tag", "axes", "residual", "state", "object", "shadow", "receiver"};
+  const auto toggle = [](const std::string& overlay) {
+    return "click overlays\nclick overlay " + overlay + "\nclick overlays\nwait\n";
+  };
+  std::string script =
+      "wait\nseek 5\nwait\nscreenshot " + folder.path("composite.png") + "\npicture " + folder.path("before.png") + "\n";
+  for (const std::string& overlay : overlays)
+    script += toggle(overlay) + "screenshot " + folder.path(overlay + ".png") + "\nwait\n" + toggle(overlay);
+  script += "screenshot " + folder.path("off.png") + "\npicture " + folder.path("after.png") + "\nwait\nquit\n";
+  const CommandResult result = run_catchlight({"tune", kMatte, "--headless", "--ui-script", folder.write("over.txt", script)});
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  for (const std::string& overlay : overlays)
+    EXPECT_GT(difference_in_picture(folder.path(overlay + ".png"), folder.path("composite.png")), 0.02) << overlay;
+  EXPECT_EQ(difference_in_picture(folder.path("off.png"), folder.path("composite.png")), 0);
+  const cv::Mat before = cv::imread(folder.path("before.png")), after = cv::imread(folder.path("after.png"));
+  EXPECT_EQ(cv::norm(before, after, cv::NORM_INF), 0);
+}
+
 }  // namespace
 }  // namespace catchlight::tests

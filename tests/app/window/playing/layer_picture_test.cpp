@@ -60,5 +60,32 @@ TEST(LayerPicture, TellsItsValues) {
   EXPECT_EQ(layer_text(picture_of_layer(layers, View::object, {}), 0, 0), "object 0.100 0.200 3.000, covers 1.000");
 }
 
+/// Opacity of the tint, a number a pixel.
+std::vector<int> alpha(const std::vector<unsigned char>& rgba) {
+  std::vector<int> result;
+  for (std::size_t i = 3; i < rgba.size(); i += 4) result.push_back(rgba[i]);
+  return result;
+}
+
+TEST(MaskTint, ShowsWhatIsOn) {
+  const FrameMasks masks{{255, 0, 100}, {0, 200, 0}};
+  EXPECT_EQ(alpha(mask_tint(masks, true, true)), (std::vector<int>{127, 100, 50}));
+  EXPECT_EQ(alpha(mask_tint(masks, true, false)), (std::vector<int>{127, 0, 50}));
+  EXPECT_EQ(alpha(mask_tint(masks, false, true)), (std::vector<int>{0, 100, 0}));
+  const auto both = mask_tint(masks, true, true);
+  EXPECT_GT(both[0], both[2]) << "the object is orange";
+  EXPECT_LT(both[4], both[6]) << "the shadow is blue";
+}
+
+TEST(Masks, AreCoverageAndLightTaken) {
+  Layers layers;
+  layers.object = Image(2, 1, 4), layers.shadow = Image(2, 1, 3);
+  layers.object.pixel(1, 0)[3] = 1;
+  for (const int c : {0, 1, 2}) layers.shadow.pixel(0, 0)[c] = 0.25f, layers.shadow.pixel(1, 0)[c] = 1.5f;
+  const FrameMasks masks = masks_of(layers);
+  EXPECT_EQ(masks.object, (std::vector<unsigned char>{0, 255}));
+  EXPECT_EQ(masks.shadow, (std::vector<unsigned char>{191, 0})) << "a bounce takes nothing";
+}
+
 }  // namespace
 }  // namespace catchlight::tests
