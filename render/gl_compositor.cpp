@@ -44,7 +44,7 @@ int supported_samples(int wanted) {
 }  // namespace
 
 struct GlCompositor::Impl {
-  Impl(const RenderScene& scene, const CompositorSettings& wanted);
+  Impl(const RenderScene& scene, const CompositorSettings& wanted, std::shared_ptr<ShaderLibrary> compiled);
 
   Composite render(const FrameView& view, const PlateReader& plate, bool want_layers, bool want_picture);
   SceneNeeds needs() const;
@@ -76,7 +76,8 @@ struct GlCompositor::Impl {
   glm::vec3 probe_in_tag_m;
   Bounds bounds;
   PassClock clock;
-  ShaderLibrary shaders;
+  std::shared_ptr<ShaderLibrary> library;
+  ShaderLibrary& shaders;
   LightTransfer light;
   ShadowedLights lights;
   ObjectPass object;
@@ -97,12 +98,13 @@ struct GlCompositor::Impl {
   std::vector<PassTime> times;
 };
 
-GlCompositor::Impl::Impl(const RenderScene& scene, const CompositorSettings& wanted)
+GlCompositor::Impl::Impl(const RenderScene& scene, const CompositorSettings& wanted, std::shared_ptr<ShaderLibrary> compiled)
     : settings(wanted),
       light_probe(split_light(checked(scene))),
       probe_in_tag_m(scene.probe_in_tag_m),
       bounds(bounds_of(scene.mesh)),
-      shaders(wanted.shader_folder),
+      library(std::move(compiled)),
+      shaders(*library),
       light(shaders),
       lights(static_cast<int>(scene.lights.size()), bounds, shaders),
       object(scene.mesh, LitPoints("object", scene.transfer.object, scene.transfer.object_direct, sh_count(scene.transfer.bands)),
@@ -297,8 +299,9 @@ Composite GlCompositor::Impl::render(const FrameView& view, const PlateReader& p
   return result;
 }
 
-GlCompositor::GlCompositor(const RenderScene& scene, const CompositorSettings& settings)
-    : impl_(std::make_unique<Impl>(scene, settings)) {}
+GlCompositor::GlCompositor(const RenderScene& scene, const CompositorSettings& settings, std::shared_ptr<ShaderLibrary> shaders)
+    : impl_(std::make_unique<Impl>(scene, settings,
+                                   shaders ? std::move(shaders) : std::make_shared<ShaderLibrary>(settings.shader_folder))) {}
 GlCompositor::~GlCompositor() = default;
 GlCompositor::GlCompositor(GlCompositor&&) noexcept = default;
 GlCompositor& GlCompositor::operator=(GlCompositor&&) noexcept = default;

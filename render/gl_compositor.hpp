@@ -11,11 +11,14 @@
 
 namespace catchlight::render {
 
+class ShaderLibrary;
+
 /// Needs a current GL 4.5 core context for its whole life. Throws Error where a shader does not compile (file and log) or a
 /// texture is too large.
 class GlCompositor final : public Compositor {
  public:
-  GlCompositor(const RenderScene& scene, const CompositorSettings& settings);
+  /// `shaders`: what compositors that follow each other have compiled in common, of the settings' shader_folder; null: its own.
+  GlCompositor(const RenderScene& scene, const CompositorSettings& settings, std::shared_ptr<ShaderLibrary> shaders = nullptr);
   ~GlCompositor() override;
   GlCompositor(GlCompositor&&) noexcept;
   GlCompositor& operator=(GlCompositor&&) noexcept;

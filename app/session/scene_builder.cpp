@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <filesystem>
 #include <glm/gtc/constants.hpp>
 
 #include "catchlight/util/enum_names.hpp"
+#include "catchlight/util/file_stamp.hpp"
 #include "catchlight/util/text.hpp"
 #include "render/cache/content_cache.hpp"
 #include "render/math/sh.hpp"
@@ -70,16 +70,9 @@ std::string text_of(const glm::dvec3& v) {
   return number_text(v.x) + ' ' + number_text(v.y) + ' ' + number_text(v.z) + ' ';
 }
 
-/// The key of a file as it is now: another name, size or date is another file.
-std::string file_key(const std::string& path) {
-  std::error_code missing;
-  const auto changed = std::filesystem::last_write_time(path, missing).time_since_epoch().count();
-  return path + '|' + std::to_string(std::filesystem::file_size(path, missing)) + '|' + std::to_string(changed) + '\n';
-}
-
 std::string probe_key(const SceneSettings& settings) {
   const SceneSettings::Probe& probe = settings.probe;
-  return file_key(settings.resolve(probe.image)) + (probe.layout ? name_of(*probe.layout) : "auto") +
+  return file_stamp(settings.resolve(probe.image)) + (probe.layout ? name_of(*probe.layout) : "auto") +
          (probe.strict ? " strict" : "");
 }
 
@@ -93,7 +86,7 @@ std::vector<std::string> files_of_objects(const SceneSettings& settings) {
 /// `files`: those that the objects were read from.
 std::string mesh_key(const SceneSettings& settings, const std::vector<std::string>& files) {
   std::string key = name_of(settings.receiver.plane) + std::string("\n");
-  for (const std::string& file : files) key += file_key(file);
+  for (const std::string& file : files) key += file_stamp(file);
   for (const SceneSettings::Object& object : settings.objects) {
     key += settings.resolve(object.mesh) + '\n';
     if (std::ranges::count(render::kTestObjects, object.mesh) > 0) key += number_text(settings.tag.size_m) + '\n';

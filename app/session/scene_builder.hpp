@@ -54,6 +54,9 @@ class SceneBuilder {
 
   const BuiltScene& scene() const { return built_; }
 
+  /// All files that the objects were read from, those that their models name among them.
+  const std::vector<std::string>& mesh_files() const { return mesh_files_; }
+
   /// How often a part was made so far.
   int times_made(ScenePart part) const { return parts_[static_cast<std::size_t>(part)].times_made; }
 
@@ -73,10 +76,10 @@ class SceneBuilder {
 
   BuiltScene built_;
   std::array<Part, kSceneParts> parts_;
-  std::vector<std::string> mesh_files_;  ///< all that the objects were read from
-  std::string summed_;                   ///< how the probe lay that irradiance_over_pi_ is of
-  glm::dvec3 irradiance_over_pi_{0.0};   ///< still_irradiance_over_pi before probe.ev
-  std::string probe_content_;            ///< render::content_key of the probe
+  std::vector<std::string> mesh_files_;
+  std::string summed_;                  ///< how the probe lay that irradiance_over_pi_ is of
+  glm::dvec3 irradiance_over_pi_{0.0};  ///< still_irradiance_over_pi before probe.ev
+  std::string probe_content_;           ///< render::content_key of the probe
   render::ReceiverAlbedo receiver_albedo_;
   // The light as the probe's file has it, before probe.ev.
   render::ReflectionMap reflections_;

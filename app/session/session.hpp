@@ -112,6 +112,9 @@ class Session {
   /// Warns of what the user should know of the track so far: an exposure that could not be read, frames without the tag.
   void warn_of_track();
 
+  /// As ShotRenderer.
+  std::vector<std::string> reload_shaders() { return renderer_.reload_shaders(); }
+
   /// Runs `work`, e.g. encoding, as a stage of the report.
   template <class Work>
   decltype(auto) measure(const std::string& stage, Work&& work) {

@@ -7,6 +7,7 @@
 #include "app/settings/parameters.hpp"
 #include "app/support/progress.hpp"
 #include "catchlight/error.hpp"
+#include "catchlight/util/file_stamp.hpp"
 #include "render/cpu/cpu_compositor.hpp"
 #include "render/gl_compositor.hpp"
 #include "render/glare/aperture_picture.hpp"
@@ -78,6 +79,7 @@ void ShotRenderer::open_renderer() {
   if (context_) return context_->make_current();
   if (!renderer_name_.empty()) return;
   context_ = context_for(settings_);
+  if (context_) shaders_ = std::make_shared<render::ShaderLibrary>(settings_.shader_folder);
   renderer_name_ = context_ ? render::gl_info().renderer : "cpu";
 }
 
@@ -90,16 +92,25 @@ void ShotRenderer::prepare() {
   if (is_built_) return;
   const BuiltScene& built = builder_.build(settings_, log_.warning_handler(), progress_handler(log_, "bake"));
   const render::CompositorSettings wanted = compositor_settings(settings_);
-  if (!compositor_ || drawn_version_ != built.version || drawn_settings_ != wanted) {
+  const std::string aperture = file_stamp(wanted.glare.aperture);
+  if (!compositor_ || drawn_version_ != built.version || drawn_settings_ != wanted || drawn_aperture_ != aperture) {
     compositor_.reset();
     if (context_)
-      compositor_ = std::make_unique<render::GlCompositor>(built.scene, wanted);
+      compositor_ = std::make_unique<render::GlCompositor>(built.scene, wanted, shaders_);
     else
       compositor_ = std::make_unique<render::CpuCompositor>(built.scene, wanted);
     drawn_version_ = built.version;
     drawn_settings_ = wanted;
+    drawn_aperture_ = aperture;
   }
   is_loaded_ = is_built_ = true;
+}
+
+std::vector<std::string> ShotRenderer::reload_shaders() {
+  auto* drawn_by = dynamic_cast<render::GlCompositor*>(compositor_.get());
+  if (!drawn_by) return {};
+  context_->make_current();
+  return drawn_by->reload_shaders();
 }
 
 void ShotRenderer::view(FrameJob& job) {

@@ -12,6 +12,7 @@
 #include "catchlight/camera.hpp"
 #include "render/compositor.hpp"
 #include "render/gl/gl_context.hpp"
+#include "render/gl/shader_library.hpp"
 #include "render/tone/tone_adaptation.hpp"
 
 namespace catchlight::app {
@@ -48,6 +49,10 @@ class ShotRenderer {
   /// renderers may live side by side: each makes its context current before it draws.
   void prepare();
 
+  /// Compiles anew what was edited in the folder of --shader-dir. A shader that does not compile stays as it was; returns what is
+  /// wrong with those, by file and line.
+  std::vector<std::string> reload_shaders();
+
   /// Sets job.view from job.image and job.track.
   void view(FrameJob& job);
 
@@ -81,12 +86,14 @@ class ShotRenderer {
   CameraModel camera_;
   Wanted wanted_;
   Log& log_;
-  std::unique_ptr<render::GlContext> context_;  ///< outlives the compositor; null where the processor draws
+  std::unique_ptr<render::GlContext> context_;      ///< outlives the compositor; null where the processor draws
+  std::shared_ptr<render::ShaderLibrary> shaders_;  ///< outlives compositors; null where the processor draws
   std::string renderer_name_;
   SceneBuilder builder_;
   bool is_loaded_ = false, is_built_ = false;  ///< with these settings
   int drawn_version_ = 0;
   std::optional<render::CompositorSettings> drawn_settings_;  ///< the compositor's
+  std::string drawn_aperture_;                                ///< the aperture's file as it was read
   std::unique_ptr<render::Compositor> compositor_;
   render::ToneAdaptation adaptation_;
   std::vector<render::PassTime> pass_times_;

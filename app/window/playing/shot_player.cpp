@@ -8,10 +8,14 @@
 #include <utility>
 
 #include "app/session/session.hpp"
+#include "app/settings/parameters.hpp"
 #include "render/image/picture_file.hpp"
 
 namespace catchlight::app {
 namespace {
+
+/// How often is looked whether files were saved anew.
+constexpr auto kWatchInterval = std::chrono::milliseconds(300);
 
 /// Thrown out of what takes long when nobody waits for it any more.
 struct GivenUp {};
@@ -33,7 +37,10 @@ SceneSettings quicker(SceneSettings settings) {
 
 ShotPlayer::ShotPlayer(Recording recording) : recording_(std::move(recording)) {
   log_.set_quiet(true);
-  thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+  thread_ = std::jthread([this](const std::stop_token& stop) {
+    run(stop);
+    session_.reset();  // its OpenGL context is this thread's
+  });
 }
 
 ShotPlayer::~ShotPlayer() = default;
@@ -91,7 +98,7 @@ void ShotPlayer::open(const std::stop_token& stop) {
     const std::lock_guard lock(mutex_);
     status_.stage = stage, status_.share = share;
   });
-  show_footage();
+  if (!newest()) show_footage();
   session_ = std::make_unique<Session>(recording_, SessionOptions{.is_revisited = true}, log_);
   const SourceInfo& info = session_->footage().info();
   const std::lock_guard lock(mutex_);
@@ -120,6 +127,42 @@ void ShotPlayer::draw_extras(const FrameExtras& extras, const FrameJob& job, con
   if (extras.masks) drawn.masks = masks_of(layers);
 }
 
+/// All that is read more than once. Not the footage: it is too large to be read anew whenever it grows.
+void ShotPlayer::watch_files(const SceneSettings& settings) {
+  std::vector<std::string> files{settings.resolve(settings.probe.image), word_or_path(settings, "glare.aperture"),
+                                 word_or_path(settings, "exposure.response"), recording_.camera_file.value_or("")};
+  for (const SceneSettings::Object& object : settings.objects) files.push_back(settings.resolve(object.mesh));
+  if (session_)
+    for (const std::string& file : session_->renderer().builder().mesh_files()) files.push_back(file);
+  std::error_code missing;
+  if (!settings.shader_folder.empty())
+    for (const auto& shader : std::filesystem::directory_iterator(settings.shader_folder, missing))
+      files.push_back(shader.path().string());
+  watch_.watch(files);
+}
+
+/// The scene's files are read anew where they are asked for; what the session was opened with, only by opening it again.
+void ShotPlayer::see_changes() {
+  const SceneSettings& settings = wish_.settings;
+  const std::string& shaders = settings.shader_folder;
+  const auto is_shader = [&](const std::string& file) { return file.starts_with(shaders); };
+  if (!shaders.empty() && session_ && std::ranges::any_of(changed_, is_shader)) shader_problems_ = session_->reload_shaders();
+  if (changed_.contains(word_or_path(settings, "exposure.response")) || changed_.contains(recording_.camera_file.value_or("")))
+    session_.reset();
+}
+
+/// Where nothing can be drawn, the footage is shown: but a frame that was drawn before stays.
+void ShotPlayer::render(FrameJob& job, const std::shared_ptr<DrawnFrame>& drawn) {
+  try {
+    session_->render(job);
+  } catch (const std::exception&) {
+    const std::shared_ptr<const DrawnFrame> before = newest();
+    drawn->wish = 0;
+    if (!before || before->wish == 0 || before->position != drawn->position) publish(drawn);
+    throw;
+  }
+}
+
 void ShotPlayer::draw(const Wish& wish) {
   const auto start = std::chrono::steady_clock::now();
   session_->apply(wish.rung == Rung::full ? wish.settings : quicker(wish.settings));
@@ -130,20 +173,19 @@ void ShotPlayer::draw(const Wish& wish) {
   auto drawn = std::make_shared<DrawnFrame>();
   drawn->position = wish.position, drawn->wish = wish.number, drawn->rung = wish.rung;
   drawn->number = job->image.number(), drawn->time_s = job->image.time_s();
-  drawn->plate = rgb_of(job->image);
+  drawn->plate = drawn->composite = rgb_of(job->image);
   drawn->truth = truth_of(job->image);
-  const Frame plate = job->image;
-  session_->render(*job);
-  drawn->image = plate;
-  drawn->composited = job->image.with_composite(job->result);
-  drawn->composite = job->result.rect.empty() ? drawn->plate : rgb_of(*drawn->composited);
+  drawn->image = drawn->composited = job->image;
   drawn->track = job->track;
   drawn->camera = session_->camera();
   drawn->target = session_->settings().tag.target();
+  render(*job, drawn);
+  drawn->composited = job->image.with_composite(job->result);
+  if (!job->result.rect.empty()) drawn->composite = rgb_of(*drawn->composited);
   const render::ReceiverGrid& grid = session_->renderer().builder().scene().scene.transfer.grid;
   if (grid.columns >= 2) drawn->receiver = {grid.min_m, grid.max_m};
   drawn->pass_times = session_->renderer().pass_times();
-  draw_extras(wish.extras, *job, plate, *drawn);
+  draw_extras(wish.extras, *job, *drawn->image, *drawn);
   drawn->draw_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   publish(std::move(drawn));
   std::vector<PlanEntry> plan = session_->plan();
@@ -151,24 +193,38 @@ void ShotPlayer::draw(const Wish& wish) {
   status_.plan = std::move(plan);
 }
 
-void ShotPlayer::run(const std::stop_token& stop) {
+/// Waits for a wish, or for a file that is saved: the last wish is fulfilled anew then. None where the player is to end.
+std::optional<ShotPlayer::Wish> ShotPlayer::next_wish(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
-    Wish wish;
-    {
-      std::unique_lock lock(mutex_);
-      if (!wished_.wait(lock, stop, [&] { return next_.has_value(); })) return;
-      wish = *std::exchange(next_, std::nullopt);
-    }
+    changed_ = watch_.take_changed();
+    std::unique_lock lock(mutex_);
+    if (changed_.empty()) wished_.wait_for(lock, stop, kWatchInterval, [&] { return next_.has_value(); });
+    if (next_) return std::exchange(next_, std::nullopt);
+    if (changed_.empty()) continue;
+    Wish again = wish_;
+    again.number = ++last_wish_;
+    return again;
+  }
+  return {};
+}
+
+void ShotPlayer::run(const std::stop_token& stop) {
+  while (const std::optional<Wish> wish = next_wish(stop)) {
+    wish_ = *wish;
     std::optional<std::string> error;
     try {
+      see_changes();
+      watch_files(wish_.settings);
       if (!session_) open(stop);
-      draw(wish);
+      draw(wish_);
+      watch_files(wish_.settings);  // now it is known what the models name
     } catch (const GivenUp&) {
       return;
     } catch (const std::exception& failure) {
       error = failure.what();
     }
-    finish(wish.number, error);
+    if (!error && !shader_problems_.empty()) error = shader_problems_.front();
+    finish(wish_.number, error);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "app/session/plan.hpp"
 #include "app/session/recording.hpp"
 #include "app/support/log.hpp"
+#include "app/window/playing/file_watch.hpp"
 #include "app/window/playing/frame_extras.hpp"
 #include "app/window/playing/layer_picture.hpp"
 #include "app/window/surface/rgb_picture.hpp"
@@ -72,6 +74,7 @@ struct PlayerStatus {
   std::vector<PlanEntry> plan;
 };
 
+/// Where a file that is drawn from was saved anew, or a shader of --shader-dir, what was wished for last is drawn again.
 class ShotPlayer {
  public:
   /// Opens the recording on the player's thread. Its first frame is shown at once, and drawn when the shot is tracked and baked.
@@ -105,7 +108,11 @@ class ShotPlayer {
 
   void run(const std::stop_token& stop);
   void open(const std::stop_token& stop);
+  std::optional<Wish> next_wish(const std::stop_token& stop);
+  void see_changes();
+  void watch_files(const SceneSettings& settings);
   void draw(const Wish& wish);
+  void render(struct FrameJob& job, const std::shared_ptr<DrawnFrame>& drawn);
   void draw_extras(const FrameExtras& extras, const FrameJob& job, const Frame& plate, DrawnFrame& drawn);
   RgbPicture truth_of(const Frame& frame) const;
   void show_footage();
@@ -114,8 +121,13 @@ class ShotPlayer {
 
   Recording recording_;
   Log log_;
-  std::unique_ptr<Session> session_;  ///< the player thread's
-  mutable std::mutex mutex_;          ///< of all that follows
+  // The player thread's.
+  std::unique_ptr<Session> session_;
+  Wish wish_;  ///< the last one
+  FileWatch watch_;
+  std::set<std::string> changed_;  ///< files, since the last wish
+  std::vector<std::string> shader_problems_;
+  mutable std::mutex mutex_;  ///< of all that follows
   std::condition_variable_any wished_;
   std::optional<Wish> next_;
   std::uint64_t last_wish_ = 0, finished_ = 0;
