@@ -21,8 +21,6 @@
 namespace catchlight::app {
 namespace {
 
-constexpr float kSideWidth = 370, kTopHeight = 34, kBottomHeight = 96;
-
 constexpr const char* kHelp =
     "space            play, pause\n"
     "left, right      one frame back, on\n"
@@ -35,15 +33,6 @@ constexpr const char* kHelp =
     "ctrl+z, ctrl+y   undo, redo\n"
     "ctrl+s           save the scene file\n"
     "f1               these keys";
-
-/// Begins a part of the window: fixed, without a frame of its own.
-void begin_part(const char* name, float x, float y, float width, float height, ImGuiWindowFlags flags = 0) {
-  ImGui::SetNextWindowPos({x, y});
-  ImGui::SetNextWindowSize({width, height});
-  ImGui::Begin(name, nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                   ImGuiWindowFlags_NoBringToFrontOnFocus | flags);
-}
 
 void write_picture(const std::string& path, const RgbPicture& picture) {
   const cv::Mat rgb(picture.height, picture.width, CV_8UC3, const_cast<unsigned char*>(picture.rgb.data()));
@@ -164,10 +153,11 @@ void TuneWindow::take_keys() {
 }
 
 bool TuneWindow::button(const char* name, bool is_possible, const char* help) {
+  fit_button_on_line(name);
   ImGui::BeginDisabled(!is_possible);
   const bool is_clicked = ImGui::Button(name);
   items_.note(name);
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
+  tooltip(help);
   ImGui::EndDisabled();
   ImGui::SameLine();
   return is_clicked;
@@ -276,21 +266,20 @@ void TuneWindow::frame() {
   for (const std::string& file : surface_.take_dropped_files()) take_dropped(file);
   take_keys();
   ask_player();
-  const ImVec2 size = ImGui::GetIO().DisplaySize;
-  const float side = kSideWidth * surface_.scale(), top = kTopHeight * surface_.scale(),
-              bottom = kBottomHeight * surface_.scale();
-  begin_part("top", 0, 0, size.x, top);
+  layout_.begin_frame(surface_.scale());
+  layout_.begin_top();
   draw_top();
-  ImGui::End();
-  begin_part("picture", 0, top, size.x - side, size.y - top - bottom, ImGuiWindowFlags_NoScrollWithMouse);
+  layout_.end_top();
+  layout_.begin_picture();
   draw_picture();
-  ImGui::End();
-  begin_part("side", size.x - side, top, side, size.y - top, ImGuiWindowFlags_AlwaysVerticalScrollbar);
+  layout_.end();
+  layout_.draw_edge(items_);
+  layout_.begin_side();
   draw_side();
-  ImGui::End();
-  begin_part("bottom", 0, size.y - bottom, size.x - side, bottom);
+  layout_.end();
+  layout_.begin_bottom();
   draw_bottom();
-  ImGui::End();
+  layout_.end_bottom();
   draw_questions();
   surface_.end_frame();
   take_screenshot();

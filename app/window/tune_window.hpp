@@ -17,6 +17,7 @@
 #include "app/window/playing/transport.hpp"
 #include "app/window/surface/gui_items.hpp"
 #include "app/window/surface/gui_surface.hpp"
+#include "app/window/surface/window_layout.hpp"
 #include "app/window/ui_script.hpp"
 
 namespace catchlight::app {
@@ -74,6 +75,7 @@ class TuneWindow final : public ScriptTarget {
   ParameterControls controls_;
   Panels panels_;
   GuiItems items_;
+  WindowLayout layout_;
   ObjectHand object_hand_;
   RenderPanel render_panel_;
   std::string message_, screenshot_;

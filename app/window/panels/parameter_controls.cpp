@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "app/settings/parameters.hpp"
+#include "app/window/surface/window_layout.hpp"
 #include "catchlight/error.hpp"
 
 namespace catchlight::app {
@@ -131,7 +132,7 @@ void ParameterControls::draw_reset(const Parameter& parameter, std::size_t index
     history.end_gesture();
   }
   items.note(name + " reset");
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("back to %s", text.c_str());
+  tooltip("back to " + text);
 }
 
 void ParameterControls::draw_row(const Parameter& parameter, std::size_t index, SettingsHistory& history, GuiItems& items) {
@@ -152,9 +153,7 @@ void ParameterControls::draw_row(const Parameter& parameter, std::size_t index, 
   ImGui::AlignTextToFramePadding();
   ImGui::TextColored(is_changed ? ImVec4(0.95f, 0.70f, 0.30f, 1) : ImVec4(0.80f, 0.80f, 0.80f, 1), "%s",
                      name.substr(name.find('.') + 1).c_str());
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("%s\n%s\n%s\nA change costs: %s.", name.c_str(), parameter.help.c_str(), expected_text(parameter).c_str(),
-                      name_of(parameter.cost).c_str());
+  tooltip(name + "\n" + parameter.help + "\n" + expected_text(parameter) + "\nA change costs: " + name_of(parameter.cost) + ".");
   ImGui::SameLine(ImGui::GetContentRegionAvail().x * 0.44f);
   ImGui::SetNextItemWidth(is_changed ? -ImGui::GetFrameHeight() - ImGui::GetStyle().ItemSpacing.x : -1);
   if (const Turned turned = draw_value(parameter, now, index)) change(*turned);

@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include "app/window/surface/gui_menu.hpp"
+#include "app/window/surface/window_layout.hpp"
 #include "catchlight/util/enum_names.hpp"
 
 namespace catchlight::app {
@@ -56,6 +57,7 @@ void draw_view_choice(PictureView& picture, const DrawnFrame* frame, GuiItems& i
   picture.overlays.draw_choice(items);
   const View view = picture.view;
   if (view == View::difference) {
+    fit_on_line(10 * ImGui::GetTextLineHeight());
     ImGui::SetNextItemWidth(7 * ImGui::GetTextLineHeight());
     ImGui::SliderFloat("gain", &picture.gain, 1, 64, "%.0f", ImGuiSliderFlags_Logarithmic);
     items.note("gain");
@@ -63,6 +65,7 @@ void draw_view_choice(PictureView& picture, const DrawnFrame* frame, GuiItems& i
   }
   const bool compares = view == View::split || view == View::flicker || view == View::difference;
   if (!compares || !has_truth) return;
+  fit_box_on_line("against truth");
   ImGui::Checkbox("against truth", &picture.against_truth);
   items.note("against truth");
   ImGui::SameLine();

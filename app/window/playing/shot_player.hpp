@@ -112,7 +112,7 @@ class ShotPlayer {
   void see_changes();
   void watch_files(const SceneSettings& settings);
   void draw(const Wish& wish);
-  void render(struct FrameJob& job, const std::shared_ptr<DrawnFrame>& drawn);
+  void render(FrameJob& job, const std::shared_ptr<DrawnFrame>& drawn);
   void draw_extras(const FrameExtras& extras, const FrameJob& job, const Frame& plate, DrawnFrame& drawn);
   RgbPicture truth_of(const Frame& frame) const;
   void show_footage();

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/window/surface/gui_keys.hpp"
+#include "app/window/surface/window_layout.hpp"
 #include "catchlight/util/enum_names.hpp"
 
 namespace catchlight::app {
@@ -24,9 +25,10 @@ void take_keys(Playhead& playhead) {
 }
 
 bool button(const char* text, const char* name, const char* help, GuiItems& items) {
+  fit_on_line(2.2f * ImGui::GetFrameHeight());
   const bool is_clicked = ImGui::Button(text, {2.2f * ImGui::GetFrameHeight(), 0});
   items.note(name);
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
+  tooltip(help);
   ImGui::SameLine();
   return is_clicked;
 }
@@ -40,6 +42,7 @@ void draw_transport(Playhead& playhead, std::int64_t frame_number, double time_s
   if (button(playhead.is_playing() ? "||" : "▶", "play", "play or pause (space)", items)) playhead.toggle();
   if (button(">", "forward", "one frame on (right)", items)) playhead.step(1);
   if (button(">|", "last", "last frame (end)", items)) playhead.step(playhead.end() - 1 - playhead.position());
+  fit_on_line(5 * ImGui::GetFrameHeight());
   ImGui::SetNextItemWidth(5 * ImGui::GetFrameHeight());
   if (ImGui::BeginCombo("##mode", name_of(playhead.mode).c_str())) {
     for (const std::string& name : name_list<PlayMode>())
@@ -51,6 +54,8 @@ void draw_transport(Playhead& playhead, std::int64_t frame_number, double time_s
   if (button("[", "mark begin", "the range begins here ([)", items)) playhead.mark_begin();
   if (button("]", "mark end", "the range ends here (])", items)) playhead.mark_end();
   if (button("x", "clear marks", "play all", items)) playhead.clear_marks();
+  fit_on_line(8 * ImGui::GetFontSize());
+  ImGui::AlignTextToFramePadding();
   ImGui::Text("frame %lld   %.3f s", static_cast<long long>(frame_number), time_s);
   std::int64_t position = playhead.position();
   const std::int64_t first = 0, last = std::max(playhead.frame_count() - 1, std::int64_t{0});
