@@ -136,6 +136,12 @@ class RecordedTrack : public FrameTrack {
   bool finds_any(const FrameRange& range) const override {
     return std::ranges::any_of(rows_, [&](const auto& entry) { return range.contains(entry.first) && entry.second.found; });
   }
+  std::vector<TrackRow> known_rows() const override {
+    std::vector<TrackRow> rows;
+    rows.reserve(rows_.size());
+    for (const auto& entry : rows_) rows.push_back(entry.second);
+    return rows;
+  }
   std::optional<TrackRow> middle_row(const FrameRange& range) const override {
     std::vector<const TrackRow*> found;
     for (const auto& [number, row] : rows_)

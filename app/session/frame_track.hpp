@@ -31,6 +31,9 @@ class FrameTrack {
   /// The row at the middle distance from the tag, of those in the range that have a pose and are known beforehand.
   virtual std::optional<TrackRow> middle_row(const FrameRange&) const { return std::nullopt; }
 
+  /// All rows that are known beforehand, in order.
+  virtual std::vector<TrackRow> known_rows() const { return {}; }
+
   /// What the user should know of the rows so far, if anything.
   virtual std::optional<std::string> warning() const = 0;
 

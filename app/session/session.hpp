@@ -103,6 +103,9 @@ class Session {
   /// The rows of the range so far, where options.keeps_track.
   const std::vector<TrackRow>& track_rows() const { return pass_.rows; }
 
+  /// The rows of all frames, where they are known beforehand: of recorded footage, and from track files.
+  std::vector<TrackRow> known_rows() const { return track_ ? track_->known_rows() : std::vector<TrackRow>{}; }
+
   /// The choices so far and their reasons; complete after the last frame.
   std::vector<PlanEntry> plan() const;
 

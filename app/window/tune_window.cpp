@@ -209,7 +209,7 @@ void TuneWindow::draw_side() {
   if (history_) controls_.draw(*history_, items_);
   if (!player_) return;
   render_panel_.draw(opened_, *history_, playhead_, shown_ ? shown_->number - shown_->position : 0, items_);
-  panels_.draw(shown_, player_->status(), items_);
+  panels_.draw(shown_, player_->status(), playhead_, items_);
 }
 
 void TuneWindow::draw_status() {

@@ -34,10 +34,14 @@ constexpr std::array kVerbs{
     Verb{"quit", 0, "quit"},
 };
 
-std::string after(const ScriptCommand& command, std::size_t first) {
+std::string joined(const std::vector<std::string>& words, std::size_t first, std::size_t end) {
   std::string text;
-  for (std::size_t i = first; i < command.words.size(); ++i) text += (i > first ? " " : "") + command.words[i];
+  for (std::size_t i = first; i < end; ++i) text += (i > first ? " " : "") + words[i];
   return text;
+}
+
+std::string after(const ScriptCommand& command, std::size_t first) {
+  return joined(command.words, first, command.words.size());
 }
 
 }  // namespace
@@ -139,9 +143,10 @@ void UiScript::drag_along(const ScriptTarget& target, const ScriptCommand& comma
   const auto& words = command.words;
   if (words.size() >= 4 && real_from_text(words[0]))
     return drag({number(command, 0), number(command, 1)}, {number(command, 2), number(command, 3)});
-  const GuiItems::Rect rect = rect_of(target, command, words[0]);
+  const std::size_t from = words.size() - 2, to = words.size() - 1;
+  const GuiItems::Rect rect = rect_of(target, command, joined(words, 0, from));
   const float y = 0.5f * (rect.min.y + rect.max.y), width = rect.max.x - rect.min.x;
-  drag({rect.min.x + number(command, 1) * width, y}, {rect.min.x + number(command, 2) * width, y});
+  drag({rect.min.x + number(command, from) * width, y}, {rect.min.x + number(command, to) * width, y});
 }
 
 void UiScript::type(const std::string& text) {

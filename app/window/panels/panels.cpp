@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/window/panels/pose_error_panel.hpp"
+
 namespace catchlight::app {
 namespace {
 
@@ -44,12 +46,16 @@ Histogram histogram_of(const RgbPicture& picture) {
   return histogram;
 }
 
-void Panels::draw(const std::shared_ptr<const DrawnFrame>& frame, const PlayerStatus& status, GuiItems& items) {
+void Panels::draw(const std::shared_ptr<const DrawnFrame>& frame, const PlayerStatus& status, Playhead& playhead,
+                  GuiItems& items) {
   if (items.section("histogram") && frame) {
     if (frame != counted_) histogram_ = histogram_of(frame->composite);
     counted_ = frame;
     draw_histogram(histogram_);
   }
+  if (items.section("waveform") && frame) waveform_.draw(frame);
+  if (items.section("pose error"))
+    draw_pose_errors(status.pose_errors ? *status.pose_errors : std::vector<PoseError>{}, playhead, items);
   if (items.section("times") && frame) draw_times(frame->pass_times);
   if (items.section("plan"))
     for (const PlanEntry& entry : status.plan)

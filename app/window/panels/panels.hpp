@@ -4,6 +4,8 @@
 #include <array>
 #include <memory>
 
+#include "app/window/panels/waveform_panel.hpp"
+#include "app/window/playing/playhead.hpp"
 #include "app/window/playing/shot_player.hpp"
 #include "app/window/surface/gui_items.hpp"
 
@@ -15,14 +17,15 @@ struct Histogram {
 };
 Histogram histogram_of(const RgbPicture& picture);
 
-/// Draws the histogram of the composite and the times of all passes into the current ImGui window.
+/// Draws the figures into the current ImGui window, a section each.
 class Panels {
  public:
-  void draw(const std::shared_ptr<const DrawnFrame>& frame, const PlayerStatus& status, GuiItems& items);
+  void draw(const std::shared_ptr<const DrawnFrame>& frame, const PlayerStatus& status, Playhead& playhead, GuiItems& items);
 
  private:
   std::shared_ptr<const DrawnFrame> counted_;
   Histogram histogram_;
+  WaveformPanel waveform_;
 };
 
 }  // namespace catchlight::app

@@ -8,8 +8,10 @@
 #include <utility>
 
 #include "app/session/session.hpp"
+#include "app/settings/change_cost.hpp"
 #include "app/settings/parameters.hpp"
 #include "render/image/picture_file.hpp"
+#include "tracking/track_file.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -99,6 +101,7 @@ void ShotPlayer::open(const std::stop_token& stop) {
     status_.stage = stage, status_.share = share;
   });
   if (!newest()) show_footage();
+  tracks_anew_ = true;
   session_ = std::make_unique<Session>(recording_, SessionOptions{.is_revisited = true}, log_);
   const SourceInfo& info = session_->footage().info();
   const std::lock_guard lock(mutex_);
@@ -116,6 +119,15 @@ RgbPicture ShotPlayer::truth_of(const Frame& frame) const {
   cv::cvtColor(render::read_picture(path.string(), render::PictureDepth::eight_bits), rgb, cv::COLOR_BGR2RGB);
   if (rgb.cols != frame.width_px() || rgb.rows != frame.height_px()) return {};
   return {rgb.cols, rgb.rows, {rgb.datastart, rgb.dataend}};
+}
+
+void ShotPlayer::note_pose_errors() {
+  std::vector<TrackRow> truth;
+  if (recording_.poses_csv) truth = tracking::read_track_file(*recording_.poses_csv).rows;
+  auto errors = std::make_shared<const std::vector<PoseError>>(
+      pose_errors(session_->known_rows(), truth, session_->camera(), session_->settings().tag.size_m));
+  const std::lock_guard lock(mutex_);
+  status_.pose_errors = std::move(errors);
 }
 
 /// What is looked at beside the composite, over the plate as it was before that.
@@ -165,11 +177,15 @@ void ShotPlayer::render(FrameJob& job, const std::shared_ptr<DrawnFrame>& drawn)
 
 void ShotPlayer::draw(const Wish& wish) {
   const auto start = std::chrono::steady_clock::now();
-  session_->apply(wish.rung == Rung::full ? wish.settings : quicker(wish.settings));
+  const SceneSettings settings = wish.rung == Rung::full ? wish.settings : quicker(wish.settings);
+  const std::set<ChangeCost> costs = costs_of_change(session_->settings(), settings);
+  if (costs.contains(ChangeCost::track) || costs.contains(ChangeCost::footage)) tracks_anew_ = true;
+  session_->apply(settings);
   session_->seek(wish.position);
   std::optional<FrameJob> job = session_->decode();
   if (!job) return;
   session_->track(*job);
+  if (std::exchange(tracks_anew_, false)) note_pose_errors();
   auto drawn = std::make_shared<DrawnFrame>();
   drawn->position = wish.position, drawn->wish = wish.number, drawn->rung = wish.rung;
   drawn->number = job->image.number(), drawn->time_s = job->image.time_s();

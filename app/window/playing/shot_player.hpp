@@ -20,6 +20,7 @@
 #include "app/window/playing/file_watch.hpp"
 #include "app/window/playing/frame_extras.hpp"
 #include "app/window/playing/layer_picture.hpp"
+#include "app/window/playing/pose_errors.hpp"
 #include "app/window/surface/rgb_picture.hpp"
 #include "catchlight/camera.hpp"
 #include "catchlight/tag.hpp"
@@ -72,6 +73,7 @@ struct PlayerStatus {
   std::int64_t frame_count = 0;  ///< 0 while it is not known
   double frame_rate = 24;
   std::vector<PlanEntry> plan;
+  std::shared_ptr<const std::vector<PoseError>> pose_errors;  ///< of all frames, once the shot is tracked
 };
 
 /// Where a file that is drawn from was saved anew, or a shader of --shader-dir, what was wished for last is drawn again.
@@ -116,6 +118,7 @@ class ShotPlayer {
   void draw_extras(const FrameExtras& extras, const FrameJob& job, const Frame& plate, DrawnFrame& drawn);
   RgbPicture truth_of(const Frame& frame) const;
   void show_footage();
+  void note_pose_errors();
   void publish(std::shared_ptr<const DrawnFrame> frame);
   void finish(std::uint64_t wish, const std::optional<std::string>& error);
 
@@ -123,7 +126,8 @@ class ShotPlayer {
   Log log_;
   // The player thread's.
   std::unique_ptr<Session> session_;
-  Wish wish_;  ///< the last one
+  bool tracks_anew_ = true;  ///< since the pose errors were noted
+  Wish wish_;                ///< the last one
   FileWatch watch_;
   std::set<std::string> changed_;  ///< files, since the last wish
   std::vector<std::string> shader_problems_;

@@ -57,5 +57,14 @@ TEST(TuneViews, OverlaysAreSwitchedOnAndOffAndLeaveTheComposite) {
   EXPECT_EQ(cv::norm(before, after, cv::NORM_INF), 0);
 }
 
+TEST(TuneViews, AClickIntoThePoseErrorGoesToItsFrame) {
+  const TemporaryFolder folder;
+  const std::string script =
+      "wait\nclick pose error\nclick waveform\nwait\nclick waveform\nclick pose error curve\nwait\nexpect frame 18\n"
+      "drag pose error curve 0.5 0.999\nwait\nexpect frame 35\nquit\n";
+  const CommandResult result = run_catchlight({"tune", kMatte, "--headless", "--ui-script", folder.write("pose.txt", script)});
+  EXPECT_EQ(result.exit_code, 0) << result.error;
+}
+
 }  // namespace
 }  // namespace catchlight::tests
