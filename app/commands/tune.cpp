@@ -1,8 +1,6 @@
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <memory>
 #include <optional>
-#include <thread>
 
 #include "app/commands/commands.hpp"
 #include "app/commands/help.hpp"
@@ -30,14 +28,14 @@ glm::ivec2 size_of(const std::string& text) {
 }
 
 /// Frames until `--frames` have been drawn and everything asked for is shown, or until the script has ended.
-void run_without_person(const Options& options, TuneWindow& window, std::optional<UiScript>& script) {
+void run_without_person(const Options& options, TuneWindow& window, GuiSurface& surface, std::optional<UiScript>& script) {
   window.frame();  // now there are controls to click
   for (int frame = 1; !window.is_done(); ++frame) {
     if (script) script->before_frame(window);
     window.frame();
     const bool is_over = script ? script->is_done() : frame + 1 >= std::max(options.frames, 1);
     if (is_over && window.is_idle()) return;
-    if (!window.is_idle()) std::this_thread::sleep_for(std::chrono::milliseconds(2));  // the player needs the cores
+    if (!window.is_idle()) surface.rest(1.0 / 60);  // the player needs the cores
   }
 }
 
@@ -49,9 +47,9 @@ void tune(const Options& options) {
   const std::unique_ptr<GuiSurface> surface = is_headless ? make_headless_surface(size) : make_window_surface(size, "Catchlight");
   TuneWindow window(*surface, options.recording, options.overrides);
   if (script || is_headless)
-    run_without_person(options, window, script);
+    run_without_person(options, window, *surface, script);
   else
-    while (!window.is_done()) window.frame();
+    while (!window.is_done()) window.frame(), surface->rest(window.rest_s());
   if (options.screenshot.empty()) return;
   window.screenshot(options.screenshot);
   window.frame();

@@ -58,7 +58,7 @@ void TuneWindow::open(const std::string& location) {
   shown_ = nullptr;
   wished_settings_.reset();
   wished_position_ = -1;
-  player_ = std::make_unique<ShotPlayer>(std::move(recording));
+  player_ = std::make_unique<ShotPlayer>(std::move(recording), [&surface = surface_] { surface.wake(); });
   surface_.set_title(recording_->name + " – Catchlight");
 }
 
@@ -105,6 +105,13 @@ bool TuneWindow::is_idle() const {
                                              wished_extras_ == picture_view_.wanted() && wished_settings_ && player_->is_idle() &&
                                              costs_of_change(*wished_settings_, history_->now()).empty());
   return asks_nothing_new && screenshot_.empty() && !playhead_.is_playing() && (!player_ || shown_ == player_->newest());
+}
+
+double TuneWindow::rest_s() {
+  constexpr double kProgress_s = 0.1, kLong_s = 1;
+  const bool changes = !is_idle() || picture_view_.view == View::flicker || ImGui::GetIO().WantTextInput;
+  const double next_s = player_ ? playhead_.until_next_s(player_->status().frame_rate).value_or(kLong_s) : kLong_s;
+  return pace_.rest_s(std::min(next_s, changes ? kProgress_s : kLong_s));
 }
 
 /// Fewer rays and samples where full quality could not follow a hand, or the footage.

@@ -16,6 +16,7 @@
 #include "app/window/playing/shot_player.hpp"
 #include "app/window/playing/transport.hpp"
 #include "app/window/surface/gui_items.hpp"
+#include "app/window/surface/gui_pace.hpp"
 #include "app/window/surface/gui_surface.hpp"
 #include "app/window/surface/window_layout.hpp"
 #include "app/window/ui_script.hpp"
@@ -32,6 +33,12 @@ class TuneWindow final : public ScriptTarget {
 
   /// Whether the window may go: it was closed, and what would be lost was asked about.
   bool is_done() const { return is_done_; }
+
+  /// How long the window need not be drawn again, but for input and news of the player, which end the surface's rest.
+  double rest_s();
+
+  /// The frame of the footage that the window shows; null before the first.
+  const std::shared_ptr<const DrawnFrame>& shown() const { return shown_; }
 
   void open(const std::string& location) override;
   void seek(std::int64_t position) override { playhead_.go_to(position); }
@@ -76,6 +83,7 @@ class TuneWindow final : public ScriptTarget {
   Panels panels_;
   GuiItems items_;
   WindowLayout layout_;
+  GuiPace pace_;
   ObjectHand object_hand_;
   RenderPanel render_panel_;
   std::string message_, screenshot_;

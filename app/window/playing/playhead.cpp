@@ -18,6 +18,11 @@ void Playhead::advance(double seconds, double frame_rate) {
   advance_by(static_cast<std::int64_t>(std::min(frames, 1e6)));
 }
 
+std::optional<double> Playhead::until_next_s(double frame_rate) const {
+  if (!is_playing_ || count_ == 0 || !(frame_rate > 0)) return {};
+  return std::max(1 / frame_rate - since_s_, 0.0);
+}
+
 void Playhead::advance_by(std::int64_t frames) {
   const std::int64_t first = std::min(begin(), count_ - 1), last = std::max(std::min(end(), count_) - 1, first);
   const std::int64_t length = last - first + 1;

@@ -33,6 +33,9 @@ class Playhead {
   std::int64_t begin() const { return begin_.value_or(0); }
   std::int64_t end() const { return end_.value_or(count_); }
 
+  /// How long it stays at its position; none where nothing plays.
+  std::optional<double> until_next_s(double frame_rate) const;
+
   /// Time goes on. Frames that could not be shown meanwhile are left out.
   void advance(double seconds, double frame_rate);
 

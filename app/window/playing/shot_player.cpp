@@ -1,5 +1,7 @@
 #include "app/window/playing/shot_player.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -37,9 +39,12 @@ SceneSettings quicker(SceneSettings settings) {
 
 }  // namespace
 
-ShotPlayer::ShotPlayer(Recording recording) : recording_(std::move(recording)) {
+ShotPlayer::ShotPlayer(Recording recording, std::function<void()> tell)
+    : recording_(std::move(recording)), tell_(std::move(tell)) {
   log_.set_quiet(true);
   thread_ = std::jthread([this](const std::stop_token& stop) {
+    constexpr int kNiceness = 5;
+    [[maybe_unused]] const int niceness = nice(kNiceness);  // this thread's and its workers': the controls go before the picture
     run(stop);
     session_.reset();  // its OpenGL context is this thread's
   });
@@ -92,6 +97,7 @@ void ShotPlayer::show_footage() {
   shown->plate = shown->composite = rgb_of(*frame);
   shown->image = shown->composited = frame;
   publish(std::move(shown));
+  tell_();
 }
 
 void ShotPlayer::open(const std::stop_token& stop) {
@@ -241,6 +247,7 @@ void ShotPlayer::run(const std::stop_token& stop) {
     }
     if (!error && !shader_problems_.empty()) error = shader_problems_.front();
     finish(wish_.number, error);
+    tell_();
   }
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -80,8 +81,9 @@ struct PlayerStatus {
 class ShotPlayer {
  public:
   /// Opens the recording on the player's thread. Its first frame is shown at once, and drawn when the shot is tracked and baked.
-  /// An error becomes part of the status.
-  explicit ShotPlayer(Recording recording);
+  /// An error becomes part of the status. `tell` is called on the player's thread when there is something new to show.
+  explicit ShotPlayer(
+      Recording recording, std::function<void()> tell = [] {});
   /// Gives up what is going on: tracking and a bake end at their next step.
   ~ShotPlayer();
   ShotPlayer(const ShotPlayer&) = delete;
@@ -123,6 +125,7 @@ class ShotPlayer {
   void finish(std::uint64_t wish, const std::optional<std::string>& error);
 
   Recording recording_;
+  std::function<void()> tell_;
   Log log_;
   // The player thread's.
   std::unique_ptr<Session> session_;

@@ -20,6 +20,11 @@ class GuiSurface {
   /// Draws it and shows it.
   virtual void end_frame() = 0;
 
+  /// Sleeps until there is input or somebody calls `wake`, and no longer than this.
+  virtual void rest(double seconds) = 0;
+  /// Ends a rest, the next one if there is none now. From any thread.
+  virtual void wake() = 0;
+
   /// Whether the user closed the window. `keep_open` takes that back.
   virtual bool is_closed() const = 0;
   virtual void keep_open() = 0;

@@ -1,6 +1,10 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+
 #include "app/window/surface/gui_keys.hpp"
 #include "app/window/surface/gui_picture.hpp"
 #include "app/window/surface/gui_style.hpp"
@@ -38,6 +42,17 @@ class HeadlessSurface final : public GuiSurface {
 
   void end_frame() override { picture_.draw(size_px_); }
 
+  void rest(double seconds) override {
+    std::unique_lock lock(mutex_);
+    woken_.wait_for(lock, std::chrono::duration<double>(seconds), [&] { return is_woken_; });
+    is_woken_ = false;
+  }
+  void wake() override {
+    const std::lock_guard lock(mutex_);
+    is_woken_ = true;
+    woken_.notify_one();
+  }
+
   bool is_closed() const override { return false; }
   void keep_open() override {}
   std::vector<std::string> take_dropped_files() override { return {}; }
@@ -50,6 +65,9 @@ class HeadlessSurface final : public GuiSurface {
   std::unique_ptr<render::GlContext> context_;
   glm::ivec2 size_px_;
   GuiPicture picture_;
+  std::mutex mutex_;
+  std::condition_variable woken_;
+  bool is_woken_ = false;
 };
 
 }  // namespace

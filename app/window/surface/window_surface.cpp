@@ -88,6 +88,9 @@ class WindowSurface final : public GuiSurface {
     glfwSwapBuffers(window_.get());
   }
 
+  void rest(double seconds) override { glfwWaitEventsTimeout(seconds); }
+  void wake() override { glfwPostEmptyEvent(); }
+
   bool is_closed() const override { return glfwWindowShouldClose(window_.get()) != 0; }
   void keep_open() override { glfwSetWindowShouldClose(window_.get(), GLFW_FALSE); }
   std::vector<std::string> take_dropped_files() override { return std::exchange(dropped_, {}); }

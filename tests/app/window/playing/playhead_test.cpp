@@ -46,6 +46,15 @@ TEST(Playhead, ShowsAFrameAsLongAsItLasts) {
   EXPECT_EQ(positions(playing(5, PlayMode::loop), 6, 0.5), (Positions{0, 0, 1, 1, 2, 2}));
 }
 
+TEST(Playhead, TellsHowLongItStays) {
+  Playhead playhead = playing(5, PlayMode::loop);
+  EXPECT_NEAR(playhead.until_next_s(25).value(), 0.04, 1e-9);
+  playhead.advance(0.015, 25);
+  EXPECT_NEAR(playhead.until_next_s(25).value(), 0.025, 1e-9);
+  playhead.toggle();
+  EXPECT_FALSE(playhead.until_next_s(25)) << "until it is moved";
+}
+
 TEST(Playhead, PlaysTheMarkedRange) {
   Playhead playhead = playing(10, PlayMode::loop);
   playhead.toggle();
