@@ -57,19 +57,23 @@ Turned draw_vector(const VectorKind& kind, const SceneSettings& settings, std::s
   return glm::clamp(glm::dvec3(value[0], value[1], value[2]), kind.min, kind.max);
 }
 
-Turned draw_choice(const std::vector<std::string>& choices, const std::string& held) {
+/// Scripts click a choice of the open list by the row's name with the choice: "probe.up y".
+Turned draw_choice(const std::vector<std::string>& choices, const std::string& held, const std::string& name, GuiItems& items) {
   Turned turned;
   if (!ImGui::BeginCombo("##value", held.c_str())) return turned;
-  for (const std::string& choice : choices)
+  for (const std::string& choice : choices) {
     if (ImGui::Selectable(choice.c_str(), choice == held)) turned = choice;
+    items.note((name + ' ').append(choice));
+  }
   ImGui::EndCombo();
   return turned;
 }
 
-Turned draw_switch(const SwitchKind& kind, const SceneSettings& settings, std::size_t index) {
+Turned draw_switch(const SwitchKind& kind, const SceneSettings& settings, std::size_t index, const std::string& name,
+                   GuiItems& items) {
   static const std::vector<std::string> choices{"auto", "off", "on"};
   const std::size_t held = static_cast<std::size_t>(kind.access(settings, index));
-  const Turned turned = draw_choice(choices, choices[held]);
+  const Turned turned = draw_choice(choices, choices[held], name, items);
   if (!turned) return {};
   const std::string& word = std::get<std::string>(*turned);
   return word == "auto" ? ParameterValue(word) : ParameterValue(word == "on");
@@ -86,20 +90,23 @@ Turned draw_flag(const FlagKind& kind, const SceneSettings& settings, std::size_
   return ImGui::Checkbox("##value", &value) ? Turned(value) : Turned();
 }
 
-Turned draw_value(const Parameter& parameter, const SceneSettings& settings, std::size_t index) {
+Turned draw_value(const Parameter& parameter, const SceneSettings& settings, std::size_t index, const std::string& name,
+                  GuiItems& items) {
   struct Visitor {
     const SceneSettings& settings;
     std::size_t index;
+    const std::string& name;
+    GuiItems& items;
     Turned operator()(const RealKind& kind) const { return draw_real(kind, settings, index); }
     Turned operator()(const IntegerKind& kind) const { return draw_integer(kind, settings, index); }
     Turned operator()(const FlagKind& kind) const { return draw_flag(kind, settings, index); }
-    Turned operator()(const SwitchKind& kind) const { return draw_switch(kind, settings, index); }
+    Turned operator()(const SwitchKind& kind) const { return draw_switch(kind, settings, index, name, items); }
     Turned operator()(const VectorKind& kind) const { return draw_vector(kind, settings, index); }
     Turned operator()(const PathKind& kind) const { return draw_path(kind, settings, index); }
-    Turned operator()(const WordKind& kind) const { return draw_choice(kind.choices, kind.access(settings, index)); }
-    Turned operator()(const ChoiceKind& kind) const { return draw_choice(kind.choices, kind.held(settings, index)); }
+    Turned operator()(const WordKind& kind) const { return draw_choice(kind.choices, kind.access(settings, index), name, items); }
+    Turned operator()(const ChoiceKind& kind) const { return draw_choice(kind.choices, kind.held(settings, index), name, items); }
   };
-  return std::visit(Visitor{settings, index}, parameter.kind);
+  return std::visit(Visitor{settings, index, name, items}, parameter.kind);
 }
 
 bool holds_text(const std::string& text, const std::string& part) {
@@ -156,7 +163,7 @@ void ParameterControls::draw_row(const Parameter& parameter, std::size_t index, 
   tooltip(name + "\n" + parameter.help + "\n" + expected_text(parameter) + "\nA change costs: " + name_of(parameter.cost) + ".");
   ImGui::SameLine(ImGui::GetContentRegionAvail().x * 0.44f);
   ImGui::SetNextItemWidth(is_changed ? -ImGui::GetFrameHeight() - ImGui::GetStyle().ItemSpacing.x : -1);
-  if (const Turned turned = draw_value(parameter, now, index)) change(*turned);
+  if (const Turned turned = draw_value(parameter, now, index, name, items)) change(*turned);
   items.note(name);
   if (ImGui::IsItemDeactivatedAfterEdit()) history.end_gesture();
   if (is_changed) draw_reset(parameter, index, name, history, items);

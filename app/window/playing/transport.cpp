@@ -45,8 +45,10 @@ void draw_transport(Playhead& playhead, std::int64_t frame_number, double time_s
   fit_on_line(5 * ImGui::GetFrameHeight());
   ImGui::SetNextItemWidth(5 * ImGui::GetFrameHeight());
   if (ImGui::BeginCombo("##mode", name_of(playhead.mode).c_str())) {
-    for (const std::string& name : name_list<PlayMode>())
+    for (const std::string& name : name_list<PlayMode>()) {
       if (ImGui::Selectable(name.c_str(), name == name_of(playhead.mode))) playhead.mode = *value_named<PlayMode>(name);
+      items.note("mode " + name);
+    }
     ImGui::EndCombo();
   }
   items.note("mode");
