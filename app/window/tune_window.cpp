@@ -5,7 +5,7 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
-#include <cctype>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <opencv2/imgproc.hpp>
@@ -14,7 +14,10 @@
 #include "app/settings/parameters.hpp"
 #include "app/settings/scene_file_edit.hpp"
 #include "app/window/picture/view_choice.hpp"
+#include "app/window/start/dropped_file.hpp"
 #include "app/window/surface/gui_keys.hpp"
+#include "app/window/surface/gui_menu.hpp"
+#include "app/window/surface/gui_problem.hpp"
 #include "catchlight/error.hpp"
 #include "render/image/picture_file.hpp"
 
@@ -43,16 +46,30 @@ void write_picture(const std::string& path, const RgbPicture& picture) {
 
 }  // namespace
 
-TuneWindow::TuneWindow(GuiSurface& surface, const std::string& location, RecordingOverrides overrides)
-    : surface_(surface), opened_{"", std::move(overrides)} {
-  if (!location.empty()) open(location);
+TuneWindow::TuneWindow(GuiSurface& surface, const OpenedRecording& wanted, TuneState state)
+    : surface_(surface), opened_{"", wanted.overrides}, state_(std::move(state)) {
+  layout_.side_width = state_.side_width;
+  items_.open_sections = state_.open_sections;
+  if (!wanted.location.empty()) open(wanted);
 }
 
-void TuneWindow::open(const std::string& location) {
-  Recording recording = open_recording(location, opened_.overrides);  // where this throws, all is as before
+TuneState TuneWindow::state() const {
+  TuneState state = state_;
+  const ImVec2 size_px = ImGui::GetIO().DisplaySize;
+  state.width = static_cast<int>(std::lround(size_px.x / surface_.scale()));
+  state.height = static_cast<int>(std::lround(size_px.y / surface_.scale()));
+  state.side_width = layout_.side_width;
+  state.open_sections = items_.open_sections;
+  return state;
+}
+
+void TuneWindow::open(const OpenedRecording& wanted) {
+  Recording recording = open_recording(wanted.location, wanted.overrides);  // where this throws, all is as before
   player_.reset();
   recording_ = recording;
-  opened_.location = location;
+  opened_ = wanted;
+  state_.remember(wanted.location);
+  message_.clear();
   history_.emplace(recording.scene);
   playhead_ = {};
   shown_ = nullptr;
@@ -79,6 +96,8 @@ void TuneWindow::set(const std::string& key, const std::string& text) {
 std::string TuneWindow::value_of(const std::string& key) const {
   if (key == "frame") return std::to_string(playhead_.position());
   if (key == "message") return message_;
+  if (key == "stage") return player_ ? player_->status().stage : "";
+  if (key == "error") return player_ ? player_->status().error.value_or("none") : "none";
   const Parameter* parameter = find_parameter(key);
   return parameter && history_ ? parameter_text(history_->now(), *parameter) : "unknown";
 }
@@ -172,6 +191,13 @@ bool TuneWindow::button(const char* name, bool is_possible, const char* help) {
 
 void TuneWindow::draw_top() {
   const bool is_open = history_.has_value();
+  ImGui::SetNextWindowSize({44 * ImGui::GetFontSize(), 0});
+  if (begin_menu("open", "open", items_)) {
+    const auto chosen = opening_.draw(state_.recordings, items_);
+    if (chosen) drop(*chosen);
+    if (chosen || is_key_pressed("escape")) ImGui::CloseCurrentPopup();
+    ImGui::EndPopup();
+  }
   if (button("undo", is_open && history_->can_undo(), "ctrl+z")) history_->undo();
   if (button("redo", is_open && history_->can_redo(), "ctrl+y")) history_->redo();
   if (button("save", is_open && !history_->is_saved(), "ctrl+s: writes the scene file, and keeps its comments")) save("");
@@ -186,27 +212,47 @@ void TuneWindow::draw_top() {
 }
 
 void TuneWindow::draw_picture() {
-  if (!recording_)
-    ImGui::TextWrapped(
-        "Drop a recording here: a folder with footage and scene.toml, or a scene file. Examples are in recordings/.");
-  else
-    picture_view_.draw(shown_, items_);
+  if (!recording_) {
+    if (const auto chosen = opening_.draw_centered(state_.recordings, items_)) drop(*chosen);
+    return;
+  }
+  picture_view_.draw(shown_, items_);
+  if (const auto error = player_->status().error) draw_problem(*error);
   if (!shown_) return;
   const std::string problem = object_hand_.take_input(*shown_, picture_view_, *history_);
   if (!problem.empty()) message_ = problem;
 }
 
-/// A probe or a model becomes the scene's; all else is opened.
-void TuneWindow::take_dropped(const std::string& file) {
-  std::string extension = std::filesystem::path(file).extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
-  const auto is_one_of = [&](std::initializer_list<const char*> known) {
-    return std::ranges::any_of(known, [&](const char* name) { return extension == name; });
-  };
+void TuneWindow::drop(const std::string& file) {
   try {
-    if (history_ && is_one_of({".exr", ".hdr", ".pfm"})) return set("probe.image", file);
-    if (history_ && is_one_of({".glb", ".gltf", ".obj", ".ply"})) return set("object.mesh", file);
-    open(extension == ".toml" ? std::filesystem::path(file).parent_path().string() : file);
+    switch (kind_of_dropped(file)) {
+      case DroppedKind::probe:
+        return set("probe.image", file);
+      case DroppedKind::model:
+        return set("object.mesh", file);
+      case DroppedKind::other:
+        throw Error(std::filesystem::path(file).filename().string() +
+                    ": not a recording, scene (.toml), video, probe (.exr, .hdr) or model (.glb, .gltf, .obj, .ply)");
+      default:
+        return leave_for(opened_by_drop(file, opened_.overrides, recording_));
+    }
+  } catch (const Error& error) {
+    message_ = error.what();
+  }
+}
+
+/// Quits, or opens what is given; where changes would be lost, asks before.
+void TuneWindow::leave_for(std::optional<OpenedRecording> next) {
+  next_ = std::move(next);
+  asks_to_leave_ = history_ && !history_->is_saved();
+  if (!asks_to_leave_) leave();
+}
+
+void TuneWindow::leave() {
+  asks_to_leave_ = false;
+  if (!next_) return void(is_done_ = true);
+  try {
+    open(*std::exchange(next_, std::nullopt));
   } catch (const Error& error) {
     message_ = error.what();
   }
@@ -222,7 +268,6 @@ void TuneWindow::draw_side() {
 void TuneWindow::draw_status() {
   if (!player_) return;
   const PlayerStatus status = player_->status();
-  if (status.error) return ImGui::TextColored({1, 0.5f, 0.4f, 1}, "%s", status.error->c_str());
   if (!player_->is_idle() && !status.stage.empty())
     return ImGui::ProgressBar(static_cast<float>(std::min(status.share, 1.0)), {200 * surface_.scale(), 0}, status.stage.c_str());
   if (!shown_) return;
@@ -232,11 +277,13 @@ void TuneWindow::draw_status() {
   if (!player_->is_idle()) text += "; drawing …";
   ImGui::TextUnformatted(text.c_str());
   ImGui::SameLine();
-  ImGui::TextDisabled("%s", (picture_view_.pixel_text().empty() ? message_ : picture_view_.pixel_text()).c_str());
+  if (!picture_view_.pixel_text().empty()) return ImGui::TextDisabled("%s", picture_view_.pixel_text().c_str());
+  ImGui::TextUnformatted(message_.c_str());
+  tooltip(message_);
 }
 
 void TuneWindow::draw_bottom() {
-  if (!player_) return;
+  if (!player_) return ImGui::TextWrapped("%s", message_.c_str());
   draw_transport(playhead_, shown_ ? shown_->number : 0, shown_ ? shown_->time_s : 0, items_);
   draw_status();
 }
@@ -245,20 +292,21 @@ void TuneWindow::draw_questions() {
   if (shows_help_ && ImGui::Begin("Keys", &shows_help_, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings))
     ImGui::TextUnformatted(kHelp);
   if (shows_help_) ImGui::End();
-  if (!asks_to_quit_) return;
+  if (!asks_to_leave_) return;
   ImGui::OpenPopup("Unsaved changes");
   if (!ImGui::BeginPopupModal("Unsaved changes", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
   ImGui::Text("%s has changes that are not saved.", recording_->name.c_str());
-  const auto choice = [&](const char* name) {
-    const bool is_clicked = ImGui::Button(name);
+  const auto choice = [&](const std::string& name) {
+    const bool is_clicked = ImGui::Button(name.c_str());
     items_.note(name);
     ImGui::SameLine();
     return is_clicked;
   };
-  if (choice("save and quit")) save(""), is_done_ = history_->is_saved(), asks_to_quit_ = false;
-  if (choice("quit without saving")) is_done_ = true;
-  if (choice("stay")) asks_to_quit_ = false;
-  if (!asks_to_quit_) ImGui::CloseCurrentPopup();
+  const std::string leaves = next_ ? "open" : "quit";
+  if (choice("save and " + leaves)) save(""), history_->is_saved() ? leave() : void(asks_to_leave_ = false);
+  if (choice(leaves + " without saving")) leave();
+  if (choice("stay")) asks_to_leave_ = false;
+  if (!asks_to_leave_) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
 }
 
@@ -270,20 +318,23 @@ void TuneWindow::take_screenshot() {
 void TuneWindow::frame() {
   surface_.begin_frame();
   items_.begin_frame();
-  for (const std::string& file : surface_.take_dropped_files()) take_dropped(file);
+  for (const std::string& file : surface_.take_dropped_files()) drop(file);
   take_keys();
   ask_player();
-  layout_.begin_frame(surface_.scale());
+  const bool has_side = recording_.has_value();
+  layout_.begin_frame(surface_.scale(), has_side);
   layout_.begin_top();
   draw_top();
   layout_.end_top();
   layout_.begin_picture();
   draw_picture();
   layout_.end();
-  layout_.draw_edge(items_);
-  layout_.begin_side();
-  draw_side();
-  layout_.end();
+  if (has_side) {
+    layout_.draw_edge(items_);
+    layout_.begin_side();
+    draw_side();
+    layout_.end();
+  }
   layout_.begin_bottom();
   draw_bottom();
   layout_.end_bottom();
@@ -292,10 +343,7 @@ void TuneWindow::frame() {
   take_screenshot();
   if (!surface_.is_closed()) return;
   surface_.keep_open();
-  if (history_ && !history_->is_saved())
-    asks_to_quit_ = true;
-  else
-    is_done_ = true;
+  leave_for(std::nullopt);
 }
 
 }  // namespace catchlight::app

@@ -15,6 +15,8 @@
 #include "app/window/picture/picture_view.hpp"
 #include "app/window/playing/shot_player.hpp"
 #include "app/window/playing/transport.hpp"
+#include "app/window/start/opening_screen.hpp"
+#include "app/window/start/tune_state.hpp"
 #include "app/window/surface/gui_items.hpp"
 #include "app/window/surface/gui_pace.hpp"
 #include "app/window/surface/gui_surface.hpp"
@@ -25,8 +27,11 @@ namespace catchlight::app {
 
 class TuneWindow final : public ScriptTarget {
  public:
-  /// Keeps a reference. `location`: a recording; empty: an empty window. `overrides`: what the command line says about it.
-  TuneWindow(GuiSurface& surface, const std::string& location, RecordingOverrides overrides);
+  /// Keeps a reference. `wanted` without a location: a window that says what can be opened.
+  TuneWindow(GuiSurface& surface, const OpenedRecording& wanted, TuneState state);
+
+  /// What is to be remembered, as it is now.
+  TuneState state() const;
 
   /// One frame of the window. Never waits for what the player does.
   void frame();
@@ -40,7 +45,8 @@ class TuneWindow final : public ScriptTarget {
   /// The frame of the footage that the window shows; null before the first.
   const std::shared_ptr<const DrawnFrame>& shown() const { return shown_; }
 
-  void open(const std::string& location) override;
+  void open(const std::string& location) override { open({location, opened_.overrides}); }
+  void drop(const std::string& file) override;
   void seek(std::int64_t position) override { playhead_.go_to(position); }
   void set(const std::string& key, const std::string& text) override;
   std::string value_of(const std::string& key) const override;
@@ -54,7 +60,9 @@ class TuneWindow final : public ScriptTarget {
  private:
   void ask_player();
   Rung rung() const;
-  void take_dropped(const std::string& file);
+  void open(const OpenedRecording& wanted);
+  void leave_for(std::optional<OpenedRecording> next);
+  void leave();
   void take_keys();
   bool button(const char* name, bool is_possible, const char* help);
   void draw_top();
@@ -68,6 +76,9 @@ class TuneWindow final : public ScriptTarget {
 
   GuiSurface& surface_;
   OpenedRecording opened_;
+  TuneState state_;  ///< of last time, but for the recordings
+  OpeningScreen opening_;
+  std::optional<OpenedRecording> next_;  ///< what is opened when the question is answered; none: the window goes
   std::optional<Recording> recording_;
   std::optional<SettingsHistory> history_;  ///< there is one where there is a recording
   std::unique_ptr<ShotPlayer> player_;
@@ -87,7 +98,7 @@ class TuneWindow final : public ScriptTarget {
   ObjectHand object_hand_;
   RenderPanel render_panel_;
   std::string message_, screenshot_;
-  bool is_done_ = false, asks_to_quit_ = false, shows_help_ = false;
+  bool is_done_ = false, asks_to_leave_ = false, shows_help_ = false;
 };
 
 }  // namespace catchlight::app

@@ -19,6 +19,7 @@ struct Verb {
 };
 constexpr std::array kVerbs{
     Verb{"open", 1, "open RECORDING"},
+    Verb{"drop", 1, "drop FILE"},
     Verb{"seek", 1, "seek FRAME"},
     Verb{"set", 2, "set KEY VALUE"},
     Verb{"click", 1, "click CONTROL"},
@@ -26,7 +27,7 @@ constexpr std::array kVerbs{
     Verb{"wheel", 2, "wheel CONTROL STEPS"},
     Verb{"type", 1, "type TEXT"},
     Verb{"key", 1, "key NAME, ctrl+NAME, ctrl+shift+NAME"},
-    Verb{"wait", 0, "wait: until everything asked for is shown"},
+    Verb{"wait", 0, "wait: until everything asked for is shown; wait STAGE: until that has begun"},
     Verb{"screenshot", 1, "screenshot FILE"},
     Verb{"picture", 1, "picture FILE"},
     Verb{"expect", 2, "expect KEY VALUE"},
@@ -118,6 +119,7 @@ void UiScript::begin(ScriptTarget& target, const ScriptCommand& command) {
   const std::string& verb = command.verb;
   const auto& words = command.words;
   if (verb == "open") return target.open(after(command, 0));
+  if (verb == "drop") return target.drop(after(command, 0));
   if (verb == "seek") return target.seek(static_cast<std::int64_t>(number(command, 0)));
   if (verb == "set") return target.set(words[0], after(command, 1));
   if (verb == "screenshot") return target.screenshot(words[0]);
@@ -173,7 +175,8 @@ void UiScript::before_frame(ScriptTarget& target) {
   }
   if (next_ == commands_.size()) return;
   const ScriptCommand& command = commands_[next_];
-  if (command.verb == "wait" && !target.is_idle()) return;
+  if (command.verb == "wait" && !target.is_idle() && (command.words.empty() || target.value_of("stage") != command.words[0]))
+    return;
   ++next_;
   begin(target, command);
 }

@@ -26,6 +26,7 @@ class ScriptTarget {
  public:
   virtual ~ScriptTarget() = default;
   virtual void open(const std::string& recording) = 0;
+  virtual void drop(const std::string& file) = 0;
   virtual void seek(std::int64_t position) = 0;
   virtual void set(const std::string& key, const std::string& text) = 0;
   virtual std::string value_of(const std::string& key) const = 0;

@@ -5,19 +5,13 @@
 #include <memory>
 #include <string>
 
-#include "app/session/recording.hpp"
+#include "app/window/editing/opened_recording.hpp"
 #include "app/window/editing/settings_history.hpp"
 #include "app/window/panels/background_run.hpp"
 #include "app/window/playing/playhead.hpp"
 #include "app/window/surface/gui_items.hpp"
 
 namespace catchlight::app {
-
-/// What the command line was given: where the footage is, and what it says about it.
-struct OpenedRecording {
-  std::string location;
-  RecordingOverrides overrides;
-};
 
 class RenderPanel {
  public:

@@ -19,12 +19,14 @@ ImVec4 grey(float value, float alpha = 1) {
 void set_gui_style(float scale) {
   ImGuiIO& io = ImGui::GetIO();
   static constexpr ImWchar kRanges[] = {0x20, 0xff, 0x2013, 0x2026, 0x2190, 0x21ff, 0x2212, 0x2212, 0x25a0, 0x25ff, 0};
+  io.Fonts->Clear();
   if (std::filesystem::exists(kFont))
     io.Fonts->AddFontFromFileTTF(kFont, kFontSize * scale, nullptr, kRanges);
   else
     io.FontGlobalScale = scale;
-  ImGui::StyleColorsDark();
   ImGuiStyle& style = ImGui::GetStyle();
+  style = {};  // sizes would be scaled twice
+  ImGui::StyleColorsDark();
   style.WindowRounding = style.FrameRounding = style.GrabRounding = 2;
   style.WindowBorderSize = 0;
   style.ItemSpacing = {6, 5};
@@ -42,7 +44,7 @@ void set_gui_style(float scale) {
   colors[ImGuiCol_Header] = grey(0.20f);
   colors[ImGuiCol_HeaderHovered] = grey(0.26f);
   colors[ImGuiCol_HeaderActive] = grey(0.30f);
-  colors[ImGuiCol_SliderGrab] = grey(0.55f);
+  colors[ImGuiCol_SliderGrab] = grey(0.42f);
   colors[ImGuiCol_SliderGrabActive] = accent;
   colors[ImGuiCol_CheckMark] = accent;
   colors[ImGuiCol_PlotHistogram] = accent;

@@ -3,6 +3,7 @@
 
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,11 +42,11 @@ class GuiSurface {
   virtual RgbPicture picture() const = 0;
 };
 
-/// A picture in memory, on the context that EGL gives without a screen. Time goes on by a sixtieth of a second a frame, and input
-/// is what is written into ImGui's IO. Throws Error where there is no OpenGL.
-std::unique_ptr<GuiSurface> make_headless_surface(const glm::ivec2& size_px);
+/// A picture in memory, `size` units large, on the context that EGL gives without a screen. Time goes on by a sixtieth of a
+/// second a frame, and input is what is written into ImGui's IO. Throws Error where there is no OpenGL.
+std::unique_ptr<GuiSurface> make_headless_surface(const glm::ivec2& size, double scale = 1);
 
-/// A window. Throws Error that says what is missing where there is no screen.
-std::unique_ptr<GuiSurface> make_window_surface(const glm::ivec2& size_px, const std::string& title);
+/// A window. `scale`: instead of the display's. Throws Error that says what is missing where there is no screen.
+std::unique_ptr<GuiSurface> make_window_surface(const glm::ivec2& size, const std::string& title, std::optional<double> scale);
 
 }  // namespace catchlight::app

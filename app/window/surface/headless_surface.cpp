@@ -16,14 +16,15 @@ namespace {
 
 class HeadlessSurface final : public GuiSurface {
  public:
-  explicit HeadlessSurface(const glm::ivec2& size_px) : context_(render::make_headless_context()), size_px_(size_px) {
+  HeadlessSurface(const glm::ivec2& size, double scale)
+      : context_(render::make_headless_context()), size_px_(scale * glm::dvec2(size)), scale_(static_cast<float>(scale)) {
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;
-    io.DisplaySize = {static_cast<float>(size_px.x), static_cast<float>(size_px.y)};
+    io.DisplaySize = {static_cast<float>(size_px_.x), static_cast<float>(size_px_.y)};
     io.MousePos = {-1, -1};
     set_key_map(io);
-    set_gui_style(1);
+    set_gui_style(scale_);
     ImGui_ImplOpenGL3_Init("#version 450");
   }
   ~HeadlessSurface() override {
@@ -57,13 +58,14 @@ class HeadlessSurface final : public GuiSurface {
   void keep_open() override {}
   std::vector<std::string> take_dropped_files() override { return {}; }
   void set_title(const std::string&) override {}
-  float scale() const override { return 1; }
+  float scale() const override { return scale_; }
 
   RgbPicture picture() const override { return picture_.read(); }
 
  private:
   std::unique_ptr<render::GlContext> context_;
   glm::ivec2 size_px_;
+  float scale_;
   GuiPicture picture_;
   std::mutex mutex_;
   std::condition_variable woken_;
@@ -72,8 +74,8 @@ class HeadlessSurface final : public GuiSurface {
 
 }  // namespace
 
-std::unique_ptr<GuiSurface> make_headless_surface(const glm::ivec2& size_px) {
-  return std::make_unique<HeadlessSurface>(size_px);
+std::unique_ptr<GuiSurface> make_headless_surface(const glm::ivec2& size, double scale) {
+  return std::make_unique<HeadlessSurface>(size, scale);
 }
 
 }  // namespace catchlight::app

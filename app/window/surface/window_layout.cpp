@@ -15,14 +15,20 @@ float content_height() {
 
 }  // namespace
 
-void WindowLayout::begin_frame(float scale) {
+void WindowLayout::begin_frame(float scale, bool has_side) {
   size_ = ImGui::GetIO().DisplaySize;
   scale_ = scale;
+  has_side_ = has_side;
   top_px_ = std::max(top_px_, kMinTop * scale_);
   bottom_px_ = std::max(bottom_px_, kMinBottom * scale_);
 }
 
+float WindowLayout::edge_px() const {
+  return has_side_ ? kEdge * scale_ : 0;
+}
+
 float WindowLayout::side_px() const {
+  if (!has_side_) return 0;
   const float widest = std::max(size_.x / scale_ - kMinPicture, kMinSide);
   return std::clamp(side_width, kMinSide, widest) * scale_;
 }
@@ -46,7 +52,7 @@ void WindowLayout::end_top() {
 }
 
 void WindowLayout::begin_bottom() {
-  begin("bottom", {0, size_.y - bottom_px_, size_.x - side_px() - kEdge * scale_, bottom_px_});
+  begin("bottom", {0, size_.y - bottom_px_, main_px(), bottom_px_});
 }
 
 void WindowLayout::end_bottom() {
@@ -56,8 +62,7 @@ void WindowLayout::end_bottom() {
 
 void WindowLayout::begin_picture() {
   ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(0.09f, 0.09f, 0.09f, 1));
-  begin("picture", {0, top_px_, size_.x - side_px() - kEdge * scale_, size_.y - top_px_ - bottom_px_},
-        ImGuiWindowFlags_NoScrollWithMouse);
+  begin("picture", {0, top_px_, main_px(), size_.y - top_px_ - bottom_px_}, ImGuiWindowFlags_NoScrollWithMouse);
   ImGui::PopStyleColor();
 }
 
@@ -66,7 +71,7 @@ void WindowLayout::begin_side() {
 }
 
 void WindowLayout::draw_edge(GuiItems& items) {
-  const float width = kEdge * scale_, height = size_.y - top_px_;
+  const float width = edge_px(), height = size_.y - top_px_;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
   begin("edge", {size_.x - side_px() - width, top_px_, width, height});

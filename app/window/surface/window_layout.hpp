@@ -15,8 +15,8 @@ class WindowLayout {
  public:
   static constexpr float kSideWidth = 370;
 
-  /// Takes the window's size from ImGui. `scale`: pixels a unit.
-  void begin_frame(float scale);
+  /// Takes the window's size from ImGui. `scale`: pixels a unit. Without a side panel the picture has its place too.
+  void begin_frame(float scale, bool has_side);
 
   void begin_top();
   void end_top();
@@ -37,9 +37,12 @@ class WindowLayout {
   };
   static void begin(const char* name, const Part& part, ImGuiWindowFlags flags = 0);
   float side_px() const;
+  float main_px() const { return size_.x - side_px() - edge_px(); }
+  float edge_px() const;
 
   ImVec2 size_{};
   float scale_ = 1;
+  bool has_side_ = true;
   float top_px_ = 0, bottom_px_ = 0;  ///< what they held in the last frame
 };
 

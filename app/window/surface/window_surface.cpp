@@ -6,6 +6,7 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <utility>
 
@@ -38,12 +39,13 @@ class Glfw {
 
 class WindowSurface final : public GuiSurface {
  public:
-  WindowSurface(const glm::ivec2& size_px, const std::string& title) {
+  WindowSurface(const glm::ivec2& size, const std::string& title, std::optional<double> scale) : given_scale_(scale) {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-    window_.reset(glfwCreateWindow(size_px.x, size_px.y, title.c_str(), nullptr, nullptr));
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, scale ? GLFW_FALSE : GLFW_TRUE);  // which makes the size one in units
+    const glm::ivec2 asked(scale.value_or(1) * glm::dvec2(size));
+    window_.reset(glfwCreateWindow(asked.x, asked.y, title.c_str(), nullptr, nullptr));
     if (!window_)
       throw Error("no window with OpenGL 4.5: " + last_glfw_error() +
                   "; install Mesa (libgl1, libgl1-mesa-dri) or the graphics card's driver");
@@ -57,9 +59,7 @@ class WindowSurface final : public GuiSurface {
     render::install_debug_callback();
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
-    float across = 1, down = 1;
-    glfwGetWindowContentScale(window_.get(), &across, &down);
-    scale_ = across;
+    scale_ = display_scale();
     set_gui_style(scale_);
     ImGui_ImplGlfw_InitForOpenGL(window_.get(), true);
     ImGui_ImplOpenGL3_Init("#version 450");
@@ -75,6 +75,7 @@ class WindowSurface final : public GuiSurface {
   void begin_frame() override {
     glfwMakeContextCurrent(window_.get());
     glfwPollEvents();
+    follow_display();
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
@@ -99,11 +100,27 @@ class WindowSurface final : public GuiSurface {
   RgbPicture picture() const override { return picture_.read(); }
 
  private:
+  float display_scale() const {
+    float across = 1, down = 1;
+    glfwGetWindowContentScale(window_.get(), &across, &down);
+    return given_scale_ ? static_cast<float>(*given_scale_) : std::max(across, 0.5f);
+  }
+
+  /// Where the window was moved to a display of another scale, type and controls get that.
+  void follow_display() {
+    if (display_scale() == scale_) return;
+    scale_ = display_scale();
+    set_gui_style(scale_);
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    ImGui_ImplOpenGL3_CreateFontsTexture();
+  }
+
   Glfw glfw_;
   struct Destroy {
     void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
   };
   std::unique_ptr<GLFWwindow, Destroy> window_;  ///< goes after what is drawn in it
+  std::optional<double> given_scale_;
   float scale_ = 1;
   std::vector<std::string> dropped_;
   GuiPicture picture_;
@@ -111,8 +128,8 @@ class WindowSurface final : public GuiSurface {
 
 }  // namespace
 
-std::unique_ptr<GuiSurface> make_window_surface(const glm::ivec2& size_px, const std::string& title) {
-  return std::make_unique<WindowSurface>(size_px, title);
+std::unique_ptr<GuiSurface> make_window_surface(const glm::ivec2& size, const std::string& title, std::optional<double> scale) {
+  return std::make_unique<WindowSurface>(size, title, scale);
 }
 
 }  // namespace catchlight::app
