@@ -115,7 +115,8 @@ void make_small_recording(const tests::TemporaryFolder& folder) {
 }
 
 DrivenWindow::DrivenWindow(const std::string& recording, const RecordingOverrides& overrides)
-    : surface_(make_headless_surface({800, 500})), window_(std::make_unique<TuneWindow>(*surface_, recording, overrides)) {
+    : surface_(make_headless_surface({800, 500})),
+      window_(std::make_unique<TuneWindow>(*surface_, OpenedRecording{recording, overrides}, TuneState{})) {
   frame();
 }
 
