@@ -118,11 +118,11 @@ bool follows_footage(ExposureMode mode) {
 
 LayerExposure layer_exposure(const SceneSettings::Exposure& settings, const TrackRow& row,
                              const glm::dvec3& tag_irradiance_over_pi) {
-  const double stops = std::exp2(settings.ev);
-  if (!follows_footage(settings.mode)) return {glm::dvec3(stops), glm::dvec3(0.0)};
+  const glm::dvec3 by_hand = std::exp2(settings.ev) * settings.white_balance;
+  if (!follows_footage(settings.mode)) return {by_hand, glm::dvec3(0.0)};
   LayerExposure exposure{glm::dvec3(0.0), row.black};  // a channel in which the probe is black stays black
   for (int c = 0; c < 3; ++c)
-    if (tag_irradiance_over_pi[c] > 1e-12) exposure.gain[c] = stops * row.exposure[c] / tag_irradiance_over_pi[c];
+    if (tag_irradiance_over_pi[c] > 1e-12) exposure.gain[c] = by_hand[c] * row.exposure[c] / tag_irradiance_over_pi[c];
   return exposure;
 }
 

@@ -24,7 +24,7 @@ struct LayerExposure {
 
 /// The virtual layer's exposure in the row's frame. Where it follows the footage, paper under the probe's own irradiance E comes
 /// out as the tag's did in the frame: gain = white / (E/pi), and the frame's black is added. Else gain is 1 and nothing is added.
-/// The gain is then multiplied by 2^ev.
+/// The gain is then multiplied by 2^ev, and channel by channel by white_balance.
 LayerExposure layer_exposure(const SceneSettings::Exposure& settings, const TrackRow& row,
                              const glm::dvec3& tag_irradiance_over_pi);
 

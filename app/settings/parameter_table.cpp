@@ -119,6 +119,10 @@ std::vector<Parameter> exposure_parameters() {
        ChoiceKind{[](auto& s) { return &s.exposure.mode; }}},
       {"exposure.ev", "EV", view, "The virtual layer is brightened by this many stops on top of that.",
        RealKind{[](auto& s) { return &s.exposure.ev; }, -30, 30}},
+      {"exposure.white_balance", "", view,
+       "The virtual layer's red, green and blue light is multiplied by these on top of that: for a tag that is not white, or a "
+       "probe in other light than the footage. `catchlight tune` sets them by a click on something white or grey.",
+       VectorKind{[](auto& s) { return &s.exposure.white_balance; }, 0.05, 20}},
       {"exposure.key", "", passes, "With \"auto\", the log-average of the picture becomes this exposed value.",
        RealKind{[](auto& s) { return &s.exposure.key; }, 0.01, 2, logarithmic}},
       {"exposure.adapt_bright_s", "s", view,

@@ -114,6 +114,7 @@ struct SceneSettings {
   struct Exposure {
     ExposureMode mode = ExposureMode::match;
     double ev = 0;
+    glm::dvec3 white_balance{1.0};
     std::string response = "footage";                 ///< as app/response/response_file.hpp says
     double key = 0.18;                                ///< what "auto" exposes the log-average to
     double adapt_bright_s = 0.4, adapt_dark_s = 1.6;  ///< time constants of "auto"

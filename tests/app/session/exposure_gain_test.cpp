@@ -47,6 +47,14 @@ TEST(ExposureGain, StopsDoubleAndFixedIgnoresTheTag) {
   EXPECT_DOUBLE_EQ(gain_of(ExposureMode::fixed, -2, glm::dvec3(0.5), glm::dvec3(7.0)).x, 0.25);
 }
 
+TEST(ExposureGain, TheWhiteBalanceIsAGainInEveryMode) {
+  const glm::dvec3 balance{0.5, 1, 2}, white{0.5, 0.6, 0.7};
+  for (const ExposureMode mode : {ExposureMode::match, ExposureMode::fixed, ExposureMode::automatic}) {
+    const glm::dvec3 as_is = gain_of(mode, 1, white, glm::dvec3(0.25));
+    EXPECT_EQ(layer_exposure({mode, 1, balance}, row_of(white), glm::dvec3(0.25)).gain, balance * as_is) << name_of(mode);
+  }
+}
+
 TEST(ExposureGain, TwentyStopsEitherWayAreFiniteAndExact) {
   for (const ExposureMode mode : {ExposureMode::match, ExposureMode::fixed, ExposureMode::automatic})
     for (const double ev : {-20.0, 20.0}) {
