@@ -10,6 +10,7 @@
 #include "app/commands/probe.hpp"
 #include "app/settings/scene_settings.hpp"
 #include "app/support/output_file.hpp"
+#include "app/tools/probe_view/mirror_ball.hpp"
 #include "app/tools/probe_view/probe_preview.hpp"
 #include "app/tools/probe_view/probe_statistics.hpp"
 #include "catchlight/color.hpp"
@@ -89,8 +90,7 @@ void print_lights(const render::SplitProbe& split) {
     print(("light " + std::to_string(i)).c_str(), "from " + direction_text(light.direction));
     print("  solid angle", shown(light.solid_angle_sr) + " sr");
     print("  irradiance", shown(light.irradiance));
-    // ProbeLight::share is of what an average surface gets, which is a quarter of all that arrives.
-    print("  share", shown(100 * light.share / 4) + " % of all the probe's light");
+    print("  share", shown(100 * light.share / render::kAverageSurfaces) + " % of all the probe's light");
     print("  samples", std::to_string(light.samples.size()));
   }
 }

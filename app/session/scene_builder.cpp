@@ -231,9 +231,9 @@ void SceneBuilder::light(const SceneSettings& settings, const WarningHandler& wa
                                 number_text(options.max_samples) + origin_of(settings, "quality.light_samples");
   renew(ScenePart::lights, split_key, [&](std::vector<PlanEntry>& plan) {
     lights_ = render::load_or_split(built_.probe, probe_content_, light_from_probe, options, cache, warn);
-    const std::string why = lights_.lights == 0 ? "nothing in the probe throws a shadow that its bands cannot hold"
-                                                : "far brighter than the rest, and sharper than its bands";
-    plan.push_back({"lights", std::to_string(lights_.lights), options.max_samples > 0 ? why : "set by hand"});
+    const std::string why = lights_.lights.empty() ? "nothing in the probe throws a shadow that its bands cannot hold"
+                                                   : "far brighter than the rest, and sharper than its bands";
+    plan.push_back({"lights", std::to_string(lights_.lights.size()), options.max_samples > 0 ? why : "set by hand"});
     plan.push_back({"light samples", std::to_string(lights_.samples.size()), origin_of(settings, "quality.light_samples")});
   });
 }

@@ -56,6 +56,8 @@ class SceneBuilder {
 
   /// All files that the objects were read from, those that their models name among them.
   const std::vector<std::string>& mesh_files() const { return mesh_files_; }
+  /// The lights that build() split off the probe, brightest first, in the light frame and before probe.ev.
+  const std::vector<render::LightSummary>& lights() const { return lights_.lights; }
 
   /// How often a part was made so far.
   int times_made(ScenePart part) const { return parts_[static_cast<std::size_t>(part)].times_made; }

@@ -4,7 +4,7 @@ namespace catchlight::render {
 namespace {
 
 // Raise when the prefilter, the split or their members change: older files then no longer match.
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 
 void archive_map(CacheStream& file, ReflectionMap& map) {
   file.for_each(map.levels, [&](Image& level) {
@@ -23,7 +23,11 @@ void archive_lights(CacheStream& file, ProbeLights& lights) {
     file(sample.spread_rad);
     file(sample.compact);
   });
-  file(lights.lights);
+  file.for_each(lights.lights, [&](LightSummary& light) {
+    file(light.direction);
+    file(light.irradiance);
+    file(light.share);
+  });
   archive_map(file, lights.rest_reflections);
 }
 
@@ -40,7 +44,8 @@ ProbeLights lights_of(const Probe& probe, const glm::dmat3& rotation, const Spli
   result.harmonics = rotate_sh(project_to_sh(probe, options.bands), rotation);
   const SplitProbe split = split_lights(probe, options);
   result.samples = samples_of(split, rotation);
-  result.lights = static_cast<std::uint32_t>(split.lights.size());
+  for (const ProbeLight& light : split.lights)
+    result.lights.push_back({rotation * light.direction, light.irradiance, light.share / kAverageSurfaces});
   if (!result.samples.empty()) result.rest_reflections = prefilter_reflections(split.mirrored, rotation);
   return result;
 }

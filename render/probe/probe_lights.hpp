@@ -13,11 +13,18 @@
 
 namespace catchlight::render {
 
+/// A light that was split off, without its shape.
+struct LightSummary {
+  glm::dvec3 direction;   ///< towards it, length 1
+  glm::dvec3 irradiance;  ///< on a surface that faces it
+  double share = 0;       ///< of all the probe's light
+};
+
 /// What the probe is taken apart into, in the frame that it is turned to.
 struct ProbeLights {
   ShRgb harmonics;                   ///< of the whole probe
   std::vector<LightSample> samples;  ///< brightest light first
-  std::uint32_t lights = 0;          ///< how many lights the samples are of
+  std::vector<LightSummary> lights;  ///< that the samples are of, in their order
   ReflectionMap rest_reflections;    ///< the probe less its compact lights; empty where there are no samples
 };
 

@@ -33,6 +33,10 @@ struct SplitOptions {
   int max_samples = 96;      ///< samples of all lights together, at most; 0: no lights
 };
 
+/// All the probe's light is this many times what an average surface gets of it: ProbeLight::share over this is the light's share
+/// of the whole.
+inline constexpr double kAverageSurfaces = 4;
+
 /// What is brighter than kLightContrast times the mean of what the split leaves is a light (a fixed point; suns hide no lamps).
 /// Peaks are told apart by watershed (light_clusters.hpp), and split off only where a shadow of the light that the bands cannot
 /// hold would be visible. A black probe, or one without contrast, has no lights.

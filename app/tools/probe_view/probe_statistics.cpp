@@ -8,8 +8,6 @@
 namespace catchlight::app {
 namespace {
 
-constexpr int kSamplesAcross = 4;  ///< samples along a side of a preview's pixel
-
 double luminance(const float* rgb) {
   return glm::dot(kLuminanceWeights, glm::dvec3(rgb[0], rgb[1], rgb[2]));
 }
@@ -67,28 +65,6 @@ ProbeStatistics measure_probe(const render::Probe& probe, int bands) {
   result.irradiance_down = render::irradiance(probe, {0, -1, 0});
   result.band_energy = band_energies(probe, bands);
   return result;
-}
-
-Image mirror_ball_preview(const render::Probe& probe, double yaw_deg, int size_px) {
-  const glm::dmat3 probe_from_tag = glm::transpose(render::tag_from_probe(render::UpAxis::z, yaw_deg));
-  const double step = 2.0 / (size_px * kSamplesAcross);
-  const auto ball_radiance = [&](int column, int row) -> glm::vec4 {
-    const double right = (column + 0.5) * step - 1, up = 1 - (row + 0.5) * step;
-    const double depth_squared = 1 - right * right - up * up;
-    if (depth_squared <= 0) return glm::vec4(0);
-    const double towards_camera = std::sqrt(depth_squared);
-    const glm::dvec3 normal(right, -towards_camera, up), view(0, 1, 0);
-    return {render::sample(probe, probe_from_tag * glm::reflect(view, normal)), 1.0f};
-  };
-  Image image(size_px, size_px, 4);
-  for (int y = 0; y < size_px; ++y)
-    for (int x = 0; x < size_px; ++x) {
-      glm::vec4 sum(0);
-      for (int i = 0; i < kSamplesAcross * kSamplesAcross; ++i)
-        sum += ball_radiance(x * kSamplesAcross + i % kSamplesAcross, y * kSamplesAcross + i / kSamplesAcross);
-      for (int c = 0; c < 4; ++c) image.pixel(x, y)[c] = sum[c] / (kSamplesAcross * kSamplesAcross);
-    }
-  return image;
 }
 
 }  // namespace catchlight::app

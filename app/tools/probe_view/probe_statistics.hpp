@@ -4,7 +4,6 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "catchlight/image.hpp"
 #include "render/probe/probe.hpp"
 
 namespace catchlight::app {
@@ -24,9 +23,5 @@ struct ProbeStatistics {
 };
 
 ProbeStatistics measure_probe(const render::Probe& probe, int bands);
-
-/// A picture of a mirror ball that stands on the tag, seen horizontally by a far camera at tag -y: right is tag +x, up is tag +z,
-/// the middle mirrors the camera. For a probe with up = "z". RGBA, scene-linear, premultiplied.
-Image mirror_ball_preview(const render::Probe& probe, double yaw_deg, int size_px);
 
 }  // namespace catchlight::app

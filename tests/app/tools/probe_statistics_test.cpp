@@ -1,4 +1,6 @@
 #include "app/tools/probe_view/probe_statistics.hpp"
+
+#include "app/tools/probe_view/mirror_ball.hpp"
 #include "catchlight/image.hpp"
 
 #include <gtest/gtest.h>
