@@ -30,6 +30,8 @@ constexpr const char* kHelp =
     "home, end        first, last frame\n"
     "[ and ]          mark the range that plays\n"
     "left button      moves the object; with shift turns, with ctrl scales it\n"
+    "l + left button  turns the probe by its shadow (alt does, too)\n"
+    "w                white balance: then click something white or grey\n"
     "wheel            zoom; middle button moves the picture\n"
     "f and 1          the whole picture, pixel by pixel\n"
     "a and b          flip to settings A, B; with shift, keep them\n"
@@ -136,7 +138,7 @@ double TuneWindow::rest_s() {
 /// Fewer rays and samples where full quality could not follow a hand, or the footage.
 Rung TuneWindow::rung() const {
   constexpr double kSmooth_ms = 1000.0 / 15;
-  const bool moves = playhead_.is_playing() || object_hand_.holds() || ImGui::IsAnyItemActive();
+  const bool moves = playhead_.is_playing() || hands_.holds() || ImGui::IsAnyItemActive();
   return moves && full_ms_ > kSmooth_ms ? Rung::fast : Rung::full;
 }
 
@@ -174,6 +176,7 @@ void TuneWindow::take_keys() {
   if (io.KeyCtrl) return;
   if (is_key_pressed("f")) picture_view_.fit();
   if (is_key_pressed("1")) picture_view_.actual_size();
+  if (is_key_pressed("w")) hands_.white.toggle();
   if (is_key_pressed("a")) io.KeyShift ? history_->keep(0) : history_->take(0);
   if (is_key_pressed("b")) io.KeyShift ? history_->keep(1) : history_->take(1);
 }
@@ -219,7 +222,7 @@ void TuneWindow::draw_picture() {
   picture_view_.draw(shown_, items_);
   if (const auto error = player_->status().error) draw_problem(*error);
   if (!shown_) return;
-  const std::string problem = object_hand_.take_input(*shown_, picture_view_, *history_);
+  const std::string problem = hands_.take_input(*shown_, picture_view_, *history_);
   if (!problem.empty()) message_ = problem;
 }
 
@@ -259,6 +262,7 @@ void TuneWindow::leave() {
 }
 
 void TuneWindow::draw_side() {
+  if (history_ && light_panel_.draw(shown_, hands_.white.is_armed(), *history_, items_)) hands_.white.toggle();
   if (history_) controls_.draw(*history_, items_);
   if (!player_) return;
   render_panel_.draw(opened_, *history_, playhead_, shown_ ? shown_->number - shown_->position : 0, items_);
@@ -277,7 +281,8 @@ void TuneWindow::draw_status() {
   if (!player_->is_idle()) text += "; drawing …";
   ImGui::TextUnformatted(text.c_str());
   ImGui::SameLine();
-  if (!picture_view_.pixel_text().empty()) return ImGui::TextDisabled("%s", picture_view_.pixel_text().c_str());
+  ImGui::TextDisabled("%s", picture_view_.pixel_text().c_str());
+  ImGui::SameLine();
   ImGui::TextUnformatted(message_.c_str());
   tooltip(message_);
 }

@@ -8,10 +8,11 @@
 
 #include "app/session/recording.hpp"
 #include "app/window/editing/settings_history.hpp"
+#include "app/window/panels/light_panel.hpp"
 #include "app/window/panels/panels.hpp"
 #include "app/window/panels/parameter_controls.hpp"
 #include "app/window/panels/render_panel.hpp"
-#include "app/window/picture/object_hand.hpp"
+#include "app/window/picture/picture_hands.hpp"
 #include "app/window/picture/picture_view.hpp"
 #include "app/window/playing/shot_player.hpp"
 #include "app/window/playing/transport.hpp"
@@ -95,7 +96,8 @@ class TuneWindow final : public ScriptTarget {
   GuiItems items_;
   WindowLayout layout_;
   GuiPace pace_;
-  ObjectHand object_hand_;
+  PictureHands hands_;
+  LightPanel light_panel_;
   RenderPanel render_panel_;
   std::string message_, screenshot_;
   bool is_done_ = false, asks_to_leave_ = false, shows_help_ = false;

@@ -28,6 +28,8 @@ constexpr std::array kVerbs{
     Verb{"type", 1, "type TEXT"},
     Verb{"key", 1, "key NAME, ctrl+NAME, ctrl+shift+NAME"},
     Verb{"wait", 0, "wait: until everything asked for is shown; wait STAGE: until that has begun"},
+    Verb{"hold", 1, "hold NAME (a key, shift, ctrl, alt)"},
+    Verb{"release", 0, "release"},
     Verb{"screenshot", 1, "screenshot FILE"},
     Verb{"picture", 1, "picture FILE"},
     Verb{"expect", 2, "expect KEY VALUE"},
@@ -131,6 +133,8 @@ void UiScript::begin(ScriptTarget& target, const ScriptCommand& command) {
   if (verb == "drag") return drag_along(target, command);
   if (verb == "type") return type(after(command, 0));
   if (verb == "key") return press(command);
+  if (verb == "hold") return hold(command);
+  if (verb == "release") return release();
   if (verb == "expect" && target.value_of(words[0]) != after(command, 1))
     fail(command, words[0] + " is " + target.value_of(words[0]) + ", expected " + after(command, 1));
 }
@@ -165,6 +169,23 @@ void UiScript::press(const ScriptCommand& command) {
   if (!key) fail(command, "there is no key '" + name + "'");
   gestures_.push_back([=](ImGuiIO& io) { io.KeyCtrl = with_ctrl, io.KeyShift = with_shift, io.KeysDown[*key] = true; });
   gestures_.push_back([=](ImGuiIO& io) { io.KeyCtrl = io.KeyShift = io.KeysDown[*key] = false; });
+}
+
+void UiScript::hold(const ScriptCommand& command) {
+  const std::string& name = command.words[0];
+  if (name == "shift") return gestures_.push_back([](ImGuiIO& io) { io.KeyShift = true; });
+  if (name == "ctrl") return gestures_.push_back([](ImGuiIO& io) { io.KeyCtrl = true; });
+  if (name == "alt") return gestures_.push_back([](ImGuiIO& io) { io.KeyAlt = true; });
+  const auto key = key_number(name);
+  if (!key) fail(command, "there is no key '" + name + "'");
+  gestures_.push_back([=](ImGuiIO& io) { io.KeysDown[*key] = true; });
+}
+
+void UiScript::release() {
+  gestures_.push_back([](ImGuiIO& io) {
+    io.KeyShift = io.KeyCtrl = io.KeyAlt = false;
+    std::ranges::fill(io.KeysDown, false);
+  });
 }
 
 void UiScript::before_frame(ScriptTarget& target) {

@@ -64,6 +64,8 @@ class UiScript {
   void turn_wheel(const ImVec2& at, float steps);
   void type(const std::string& text);
   void press(const ScriptCommand& command);
+  void hold(const ScriptCommand& command);
+  void release();
   [[noreturn]] void fail(const ScriptCommand& command, const std::string& why) const;
 
   std::string path_;

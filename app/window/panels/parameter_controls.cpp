@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "app/settings/parameters.hpp"
+#include "app/window/panels/effect_switches.hpp"
 #include "app/window/surface/window_layout.hpp"
 #include "catchlight/error.hpp"
 
@@ -175,6 +176,7 @@ void ParameterControls::draw(SettingsHistory& history, GuiItems& items) {
   ImGui::InputTextWithHint("##search", "search parameters", &search_);
   items.note("search");
   if (!refused_.empty()) ImGui::TextWrapped("%s", refused_.c_str());
+  if (search_.empty()) draw_effect_switches(history, items);
   std::string group;
   bool is_open = false;
   for (const Parameter& parameter : parameters()) {

@@ -206,6 +206,7 @@ void ShotPlayer::draw(const Wish& wish) {
   if (!job->result.rect.empty()) drawn->composite = rgb_of(*drawn->composited);
   const render::ReceiverGrid& grid = session_->renderer().builder().scene().scene.transfer.grid;
   if (grid.columns >= 2) drawn->receiver = {grid.min_m, grid.max_m};
+  drawn->light = light_maker_.light_of(*job, session_->settings(), session_->renderer().builder());
   drawn->pass_times = session_->renderer().pass_times();
   draw_extras(wish.extras, *job, *drawn->image, *drawn);
   drawn->draw_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

@@ -20,6 +20,7 @@
 #include "app/support/log.hpp"
 #include "app/window/playing/file_watch.hpp"
 #include "app/window/playing/frame_extras.hpp"
+#include "app/window/playing/frame_light.hpp"
 #include "app/window/playing/layer_picture.hpp"
 #include "app/window/playing/pose_errors.hpp"
 #include "app/window/surface/rgb_picture.hpp"
@@ -61,6 +62,7 @@ struct DrawnFrame {
   TagTarget target;
   TrackRow track;
   CameraModel camera;
+  FrameLight light;
   std::vector<render::PassTime> pass_times;
   double draw_ms = 0;  ///< by the clock
 };
@@ -129,6 +131,7 @@ class ShotPlayer {
   Log log_;
   // The player thread's.
   std::unique_ptr<Session> session_;
+  FrameLightMaker light_maker_;
   bool tracks_anew_ = true;  ///< since the pose errors were noted
   Wish wish_;                ///< the last one
   FileWatch watch_;

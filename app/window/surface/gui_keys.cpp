@@ -49,6 +49,11 @@ std::optional<int> key_number(std::string_view name) {
   return std::toupper(static_cast<unsigned char>(name.front()));  // GLFW numbers printable keys by their characters
 }
 
+bool is_key_down(std::string_view name) {
+  const std::optional<int> key = key_number(name);
+  return key && ImGui::IsKeyDown(*key);
+}
+
 bool is_key_pressed(std::string_view name) {
   const std::optional<int> key = key_number(name);
   return key && ImGui::IsKeyPressed(*key);

@@ -2,12 +2,10 @@
 #include <gmock/gmock.h>
 
 #include <filesystem>
-#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
-#include "tests/support/run_command.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/app/commands/tuned_recording.hpp"
 
 namespace catchlight::tests {
 namespace {
@@ -16,30 +14,7 @@ using ::testing::HasSubstr;
 
 const std::string kRecordings = std::string(CATCHLIGHT_SOURCE_DIR) + "/recordings/";
 
-std::string text_of(const std::string& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-/// A copy of a shipped recording, so that its scene may be saved.
-class TuneCli : public ::testing::Test {
- protected:
-  TuneCli() {
-    for (const char* name : {"video.mp4", "camera.yaml", "scene.toml", "object.glb", "probe.exr"})
-      std::filesystem::copy_file(kRecordings + "matte/" + name, folder_.path(name));
-  }
-
-  std::string path(const std::string& name) const { return folder_.path(name); }
-  std::string folder() const { return std::filesystem::path(folder_.path("x")).parent_path().string(); }
-
-  CommandResult run(const std::string& script) {
-    return run_catchlight({"tune", folder(), "--headless", "--ui-script", folder_.write("script.txt", script)});
-  }
-
-  TemporaryFolder folder_;
-};
+using TuneCli = TunedRecording;
 
 TEST_F(TuneCli, SavesExactlyWhatWasTurnedAndOverlayDrawsWhatWasSeen) {
   const std::string before = text_of(path("scene.toml"));

@@ -1,0 +1,63 @@
+// The hands on the picture and on the light, by scripts.
+#include <gmock/gmock.h>
+
+#include <cstdio>
+#include <opencv2/imgcodecs.hpp>
+
+#include "tests/app/commands/tuned_recording.hpp"
+
+namespace catchlight::tests {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using TuneHands = TunedRecording;
+
+/// Quick to bake: these tests are not about its light.
+const std::string kQuick = "set quality.rays 64\nset quality.bands 3\nset quality.bounces 0\n";
+
+TEST_F(TuneHands, ADragAcrossTheBallTurnsTheProbeAndIsOneStep) {
+  const CommandResult result = run(kQuick +
+                                   "click light\nwait\ndrag probe ball 0.5 0.75\nwait\nsave\nclick undo\n"
+                                   "expect probe.yaw_deg 0\nexpect quality.bounces 0\nclick redo\nquit\n");
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  double yaw_deg = 0;
+  const std::string scene = text_of(path("scene.toml"));
+  ASSERT_EQ(std::sscanf(scene.substr(scene.find("yaw_deg")).c_str(), "yaw_deg = %lf", &yaw_deg), 1) << scene;
+  EXPECT_NEAR(yaw_deg, 57.3, 1.5) << "half a radius, twice as far: a radian";
+}
+
+TEST_F(TuneHands, TheShadowTurnsTheProbeWithoutMovingTheObject) {
+  const CommandResult result =
+      run(kQuick +
+          "wait\nhold l\ndrag 500 400 600 300\nrelease\nexpect object.tag_from_object.translation_m 0,0,0\n"
+          "save\nclick undo\nexpect probe.yaw_deg 0\nquit\n");
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  EXPECT_THAT(text_of(path("scene.toml")), HasSubstr("yaw_deg = "));
+}
+
+/// The tag lies on that paper, and `match` reads the balance off the tag.
+TEST_F(TuneHands, PaperBesideTheTagNeedsNoBalanceButThatOfTheTag) {
+  const CommandResult result = run(kQuick + "wait\nkey w\ndrag 570 385 570 385\nsave\nwait\npicture " + path("seen.png") +
+                                   "\nclick undo\nexpect exposure.white_balance 1,1,1\nquit\n");
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  const std::string scene = text_of(path("scene.toml"));
+  double red = 0, green = 0, blue = 0;
+  ASSERT_EQ(
+      std::sscanf(scene.substr(scene.find("white_balance")).c_str(), "white_balance = [%lf, %lf, %lf]", &red, &green, &blue), 3)
+      << scene;
+  for (const double gain : {red, green, blue}) EXPECT_NEAR(gain, 1, 0.06);
+  const CommandResult drawn = run_catchlight({"overlay", folder(), "-o", path("drawn.%04d.png")});
+  ASSERT_EQ(drawn.exit_code, 0) << drawn.error;
+  EXPECT_EQ(cv::norm(cv::imread(path("seen.png")), cv::imread(path("drawn.0000.png")), cv::NORM_INF), 0);
+}
+
+TEST_F(TuneHands, WhatTellsNoColourSetsNoBalance) {
+  const CommandResult result = run(kQuick +
+                                   "set exposure.mode fixed\nwait\nkey w\nkey escape\ndrag 570 385 570 385\n"
+                                   "expect exposure.white_balance 1,1,1\nquit\n");
+  EXPECT_EQ(result.exit_code, 0) << result.error;
+}
+
+}  // namespace
+}  // namespace catchlight::tests
