@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
+#include <regex>
 #include <sstream>
 
 #include "tests/app/commands/tuned_recording.hpp"
@@ -33,6 +34,78 @@ TEST_F(TuneCli, SavesExactlyWhatWasTurnedAndOverlayDrawsWhatWasSeen) {
   const CommandResult drawn = run_catchlight({"overlay", folder(), "-o", path("drawn.%04d.png")});
   ASSERT_EQ(drawn.exit_code, 0) << drawn.error;
   const cv::Mat seen = cv::imread(path("seen.png")), overlaid = cv::imread(path("drawn.0005.png"));
+  ASSERT_EQ(seen.size(), overlaid.size());
+  EXPECT_EQ(cv::norm(seen, overlaid, cv::NORM_INF), 0) << "what is seen is what is drawn";
+}
+
+/// What ASession... leaves; the place is where the drag took the object.
+std::string scene_after_session(const std::string& place_m) {
+  return R"(# Suzanne in a courtyard: soft light, one Lambertian object with deep concavities.
+
+[tag]
+family = "tag36h11"
+id = 0
+size_m = 0.08
+white_albedo = 0.8
+black_albedo = 0.04
+
+[[object]]
+mesh = "object.glb"
+tag_from_object = { rotation_deg = [90, 0, 12], scale = 1.0, translation_m = )" +
+         place_m + R"( }
+
+[receiver]
+plane = "tag"
+albedo = [0.5, 0.4, 0.3]
+
+[probe]
+image = "other.exr"
+layout = "latlong"
+up = "z"
+fixed_to = "tag"
+yaw_deg = -30
+
+[exposure]
+mode = "fixed"
+ev = 0.25
+
+[glare]
+enabled = false
+bloom_strength = 0.05
+
+[lens]
+noise = false
+shutter = 1
+
+[quality]
+samples = 3
+)";
+}
+
+/// A session as people have them, with a parameter of each kind, by controls and by keys.
+TEST_F(TuneCli, ASessionLeavesExactlyTheExpectedFileAndPicture) {
+  std::filesystem::copy_file(kRecordings + "gloss/probe.exr", path("other.exr"));
+  const auto control = [](const std::string& key, const std::string& action) {
+    return "click search\nkey ctrl+a\ntype " + key + "\n" + action + '\n';
+  };
+  const CommandResult result = run(
+      "wait\ndrag timeline 0.1 0.9\nwait\nseek 7\n"
+      "set exposure.ev 0.25\nset glare.bloom_strength 0.05\nset probe.yaw_deg -30\nset receiver.albedo 0.5,0.4,0.3\n" +
+      control("lens.shutter", "drag lens.shutter 0.5 1.5") + control("glare.enabled", "click glare.enabled") +
+      control("lens.noise", "click lens.noise\nclick lens.noise off") +
+      control("exposure.mode", "click exposure.mode\nclick exposure.mode fixed") +
+      control("probe.image", "click probe.image\nkey ctrl+a\ntype other.exr\nkey enter") + control("quality.samples", "wait") +
+      "set quality.samples 3\nset quality.bands 4\nset glare.threshold 3\nset tag.white_albedo 0.7\n"
+      "click undo\nclick undo\nkey ctrl+z\nwait\ndrag picture 0.5 0.55\nwait\npicture " +
+      path("seen.png") + "\nsave\nquit\n");
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  const std::string after = text_of(path("scene.toml"));
+  std::smatch place;
+  ASSERT_TRUE(std::regex_search(after, place, std::regex(R"(translation_m = (\[0\.0[0-9]+, -?0\.0[0-9]+, 0\]))"))) << after;
+  EXPECT_EQ(after, scene_after_session(place[1]));
+  const CommandResult drawn = run_catchlight({"overlay", folder(), "-o", path("drawn.%04d.png")});
+  ASSERT_EQ(drawn.exit_code, 0) << drawn.error;
+  const cv::Mat seen = cv::imread(path("seen.png")), overlaid = cv::imread(path("drawn.0007.png"));
   ASSERT_EQ(seen.size(), overlaid.size());
   EXPECT_EQ(cv::norm(seen, overlaid, cv::NORM_INF), 0) << "what is seen is what is drawn";
 }
