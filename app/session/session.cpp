@@ -116,7 +116,16 @@ std::optional<FrameJob> Session::decode() {
 }
 
 void Session::seek(std::int64_t position) {
-  opened_track();
+  FrameTrack& track = opened_track();
+  if (renderer_.adapts() && !footage_->info().is_one_pass)
+    renderer_.adapt_until(static_cast<std::size_t>(position), [&](std::size_t before) -> std::optional<FrameJob> {
+      footage_->seek(static_cast<std::int64_t>(before));
+      std::optional<Frame> frame = footage_->read();
+      if (!frame) return {};
+      FrameJob job{.image = std::move(*frame)};
+      job.track = track.row(job.image);
+      return job;
+    });
   footage_->seek(position);
 }
 

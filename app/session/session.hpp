@@ -57,7 +57,7 @@ class Session {
   std::optional<FrameJob> decode();
 
   /// decode() goes on at that position among the footage's frames, from 0; where that is beyond the end, there is none. Of
-  /// recorded footage, where options.is_revisited. An exposure that adapts goes on from what was drawn before.
+  /// recorded footage, where options.is_revisited. An exposure that adapts has seen all frames before that one then.
   void seek(std::int64_t position);
   void track(FrameJob& job);
   void view(FrameJob& job) { renderer_.view(job); }

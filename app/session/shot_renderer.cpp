@@ -3,6 +3,7 @@
 #include "app/media/pixels/full_color.hpp"
 #include "app/media/pixels/untouched_layers.hpp"
 #include "app/session/frame_view.hpp"
+#include "app/settings/change_cost.hpp"
 #include "app/settings/look.hpp"
 #include "app/settings/parameters.hpp"
 #include "app/support/progress.hpp"
@@ -58,6 +59,7 @@ ShotRenderer::~ShotRenderer() {
 
 void ShotRenderer::apply(const SceneSettings& settings) {
   const SceneSettings::Exposure &before = settings_.exposure, &after = settings.exposure;
+  if (!costs_of_change(settings_, settings).empty()) metered_.clear();
   const bool adapts_otherwise = before.adapt_bright_s != after.adapt_bright_s || before.adapt_dark_s != after.adapt_dark_s;
   settings_ = settings;
   is_loaded_ = is_built_ = false;
@@ -153,6 +155,19 @@ void ShotRenderer::skip(FrameJob& job) {
   prepare();
   view(job);
   adaptation_.see(job.image.time_s(), compositor_->meter(job.view, reader(job.image)));
+}
+
+void ShotRenderer::adapt_until(std::size_t position, const std::function<std::optional<FrameJob>(std::size_t)>& tracked) {
+  prepare();
+  if (std::exchange(metered_version_, drawn_version_) != drawn_version_) metered_.clear();
+  while (metered_.size() < position) {
+    std::optional<FrameJob> job = tracked(metered_.size());
+    if (!job) break;
+    job->view = frame_view(job->image, job->track, camera_, settings_, load());
+    metered_.push_back({job->image.time_s(), compositor_->meter(job->view, reader(job->image))});
+  }
+  restart();
+  for (std::size_t i = 0; i < std::min(position, metered_.size()); ++i) adaptation_.see(metered_[i].time_s, metered_[i].wanted);
 }
 
 PlanEntry ShotRenderer::renderer_entry() const {

@@ -1,6 +1,7 @@
 // Draws a shot's frames: the scene, the compositor and the exposure that adapts from frame to frame.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -66,6 +67,13 @@ class ShotRenderer {
   /// The exposure adapts to frames that are not drawn, too: it must see every frame of the footage, in order.
   void skip(FrameJob& job);
 
+  /// Whether a frame's exposure depends on the frames before it.
+  bool adapts() const;
+
+  /// The exposure adapts as it would from the footage's beginning up to a frame at this position. `tracked(i)` is asked for the
+  /// frame at position i, in order: what a frame calls for is kept, as long as the scene stays.
+  void adapt_until(std::size_t position, const std::function<std::optional<FrameJob>(std::size_t)>& tracked);
+
   /// The times of the last render()'s passes; empty where nothing was drawn.
   const std::vector<render::PassTime>& pass_times() const { return pass_times_; }
 
@@ -77,7 +85,6 @@ class ShotRenderer {
   const std::string& renderer_name() const { return renderer_name_; }
 
  private:
-  bool adapts() const;
   PlanEntry renderer_entry() const;
   PlanEntry reflection_entry() const;
   void draw(FrameJob& job);
@@ -96,6 +103,12 @@ class ShotRenderer {
   std::string drawn_aperture_;                                ///< the aperture's file as it was read
   std::unique_ptr<render::Compositor> compositor_;
   render::ToneAdaptation adaptation_;
+  struct Metered {
+    double time_s;
+    ToneCurve wanted;
+  };
+  std::vector<Metered> metered_;  ///< of the footage's first frames, in the scene of metered_version_
+  int metered_version_ = 0;
   std::vector<render::PassTime> pass_times_;
 };
 

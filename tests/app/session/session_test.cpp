@@ -99,6 +99,27 @@ TEST_F(SessionTest, FootageThatStartsAgainIsCountedAnewAndDrawnTheSame) {
   EXPECT_EQ(session.track_rows().size(), 1u);
 }
 
+/// A frame that is looked at is the shot's, whatever was looked at before, and under which settings.
+TEST_F(SessionTest, AnExposureThatAdaptsHasSeenAllFramesBeforeTheOneThatIsSought) {
+  const Recording bright = with({{"exposure.mode", "auto"}, {"exposure.ev", "3"}}),
+                  dark = with({{"exposure.mode", "auto"}, {"exposure.ev", "-3"}, {"exposure.key", "0.5"}});
+  const auto third = [&](const Recording& shot) {
+    Session session(shot, {}, log_);
+    drawn(session), drawn(session);
+    return drawn(session);
+  };
+  Session session(bright, {.is_revisited = true}, log_);
+  const auto sought = [&](std::int64_t position) {
+    session.seek(position);
+    return drawn(session);
+  };
+  sought(5);
+  expect_same(sought(2), third(bright));
+  session.apply(dark.scene);
+  sought(0);
+  expect_same(sought(2), third(dark));
+}
+
 TEST_F(SessionTest, AFrameFromBeforeNewSettingsIsTrackedByThem) {
   Session session(recording(), {.track_file = kRecording + "/poses.csv"}, log_);
   FrameJob job = session.decode().value();
