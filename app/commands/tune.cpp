@@ -53,8 +53,9 @@ void tune(const Options& options, Log& log) {
   const bool is_headless = options.is_headless || options.frames > 0;
   const TuneState state = remembers(is_headless) ? read_tune_state(tune_state_file(), log.warning_handler()) : TuneState{};
   const glm::ivec2 size = options.size.empty() ? glm::ivec2(state.width, state.height) : size_of(options.size);
-  const std::unique_ptr<GuiSurface> surface = is_headless ? make_headless_surface(size, options.scale.value_or(1))
-                                                          : make_window_surface(size, "Catchlight", options.scale);
+  const std::unique_ptr<GuiSurface> surface = is_headless
+                                                  ? make_headless_surface(size, options.scale.value_or(1))
+                                                  : make_window_surface(size, "Catchlight", options.scale, script.has_value());
   TuneWindow window(*surface, {options.recording, options.overrides}, state);
   if (script || is_headless)
     run_without_person(options, window, *surface, script);

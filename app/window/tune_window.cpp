@@ -194,7 +194,7 @@ bool TuneWindow::button(const char* name, bool is_possible, const char* help) {
 
 void TuneWindow::draw_top() {
   const bool is_open = history_.has_value();
-  ImGui::SetNextWindowSize({44 * ImGui::GetFontSize(), 0});
+  ImGui::SetNextWindowSize({54 * ImGui::GetFontSize(), 0});
   if (begin_menu("open", "open", items_)) {
     const auto chosen = opening_.draw(state_.recordings, items_);
     if (chosen) drop(*chosen);
@@ -269,17 +269,21 @@ void TuneWindow::draw_side() {
   panels_.draw(shown_, player_->status(), playhead_, items_);
 }
 
-void TuneWindow::draw_status() {
-  if (!player_) return;
+/// What the player is at, or what it drew last.
+void TuneWindow::draw_progress() {
   const PlayerStatus status = player_->status();
   if (!player_->is_idle() && !status.stage.empty())
     return ImGui::ProgressBar(static_cast<float>(std::min(status.share, 1.0)), {200 * surface_.scale(), 0}, status.stage.c_str());
-  if (!shown_) return;
+  if (!shown_) return ImGui::TextUnformatted("");
   std::string text = shown_->wish == 0 ? "the footage alone"
                                        : name_of(shown_->rung) + ", " + std::to_string(static_cast<int>(shown_->draw_ms)) + " ms";
   if (shown_->wish != 0 && !shown_->track.found) text += "; no tag in this frame";
   if (!player_->is_idle()) text += "; drawing …";
   ImGui::TextUnformatted(text.c_str());
+}
+
+void TuneWindow::draw_status() {
+  draw_progress();
   ImGui::SameLine();
   ImGui::TextDisabled("%s", picture_view_.pixel_text().c_str());
   ImGui::SameLine();

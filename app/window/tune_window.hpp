@@ -70,6 +70,7 @@ class TuneWindow final : public ScriptTarget {
   void draw_picture();
   void draw_side();
   void draw_bottom();
+  void draw_progress();
   void draw_status();
   void draw_questions();
   std::string scene_file() const;

@@ -13,7 +13,7 @@ namespace {
 
 void draw_histogram(const Histogram& histogram) {
   static constexpr ImU32 kColors[] = {IM_COL32(230, 80, 80, 130), IM_COL32(90, 200, 90, 130), IM_COL32(90, 130, 240, 130)};
-  const ImVec2 corner = ImGui::GetCursorScreenPos(), size{ImGui::GetContentRegionAvail().x, 90};
+  const ImVec2 corner = ImGui::GetCursorScreenPos(), size{ImGui::GetContentRegionAvail().x, 6.5f * ImGui::GetFontSize()};
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, IM_COL32(20, 20, 20, 255));
   for (std::size_t c = 0; c < 3; ++c) {

@@ -37,7 +37,7 @@ bool button(const std::string& text, const std::string& name, float width, GuiIt
 }
 
 float drawn_width() {
-  return std::min(ImGui::GetContentRegionAvail().x, 44 * ImGui::GetFontSize());
+  return std::min(ImGui::GetContentRegionAvail().x, 52 * ImGui::GetFontSize());
 }
 
 void heading(const char* text) {

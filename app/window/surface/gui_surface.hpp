@@ -46,7 +46,9 @@ class GuiSurface {
 /// second a frame, and input is what is written into ImGui's IO. Throws Error where there is no OpenGL.
 std::unique_ptr<GuiSurface> make_headless_surface(const glm::ivec2& size, double scale = 1);
 
-/// A window. `scale`: instead of the display's. Throws Error that says what is missing where there is no screen.
-std::unique_ptr<GuiSurface> make_window_surface(const glm::ivec2& size, const std::string& title, std::optional<double> scale);
+/// A window. `scale`: instead of the display's. `is_driven`: a script moves the pointer, and not the hand that may be there too.
+/// Throws Error that says what is missing where there is no screen.
+std::unique_ptr<GuiSurface> make_window_surface(const glm::ivec2& size, const std::string& title, std::optional<double> scale,
+                                                bool is_driven);
 
 }  // namespace catchlight::app

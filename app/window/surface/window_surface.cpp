@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <utility>
 
@@ -39,7 +40,8 @@ class Glfw {
 
 class WindowSurface final : public GuiSurface {
  public:
-  WindowSurface(const glm::ivec2& size, const std::string& title, std::optional<double> scale) : given_scale_(scale) {
+  WindowSurface(const glm::ivec2& size, const std::string& title, std::optional<double> scale, bool is_driven)
+      : given_scale_(scale), is_driven_(is_driven) {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -77,7 +79,7 @@ class WindowSurface final : public GuiSurface {
     glfwPollEvents();
     follow_display();
     ImGui_ImplOpenGL3_NewFrame();
-    ImGui_ImplGlfw_NewFrame();
+    begin_input();
     ImGui::NewFrame();
   }
 
@@ -100,6 +102,17 @@ class WindowSurface final : public GuiSurface {
   RgbPicture picture() const override { return picture_.read(); }
 
  private:
+  /// GLFW's pointer is the hand's: a script's stays as it was set.
+  void begin_input() {
+    ImGuiIO& io = ImGui::GetIO();
+    const ImVec2 pointer = io.MousePos;
+    const auto buttons = std::to_array(io.MouseDown);
+    ImGui_ImplGlfw_NewFrame();
+    if (!is_driven_) return;
+    io.MousePos = pointer;
+    std::ranges::copy(buttons, io.MouseDown);
+  }
+
   float display_scale() const {
     float across = 1, down = 1;
     glfwGetWindowContentScale(window_.get(), &across, &down);
@@ -121,6 +134,7 @@ class WindowSurface final : public GuiSurface {
   };
   std::unique_ptr<GLFWwindow, Destroy> window_;  ///< goes after what is drawn in it
   std::optional<double> given_scale_;
+  bool is_driven_;
   float scale_ = 1;
   std::vector<std::string> dropped_;
   GuiPicture picture_;
@@ -128,8 +142,9 @@ class WindowSurface final : public GuiSurface {
 
 }  // namespace
 
-std::unique_ptr<GuiSurface> make_window_surface(const glm::ivec2& size, const std::string& title, std::optional<double> scale) {
-  return std::make_unique<WindowSurface>(size, title, scale);
+std::unique_ptr<GuiSurface> make_window_surface(const glm::ivec2& size, const std::string& title, std::optional<double> scale,
+                                                bool is_driven) {
+  return std::make_unique<WindowSurface>(size, title, scale, is_driven);
 }
 
 }  // namespace catchlight::app
