@@ -10,7 +10,7 @@ bool sees_front_of_receiver(const FrameView& view) {
 }
 
 double passed_at_tag(const FrameView& view, const DistortionLimit& limit) {
-  const auto tag_px = project_px(view.camera, view.camera_from_tag.translation_m, &limit);
+  const auto tag_px = project_px(view.camera, view.camera_from_tag * view.tag_in_scene_m, &limit);
   return tag_px ? vignetting_at(view.camera, *tag_px) : 0;
 }
 

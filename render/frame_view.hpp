@@ -17,6 +17,7 @@ namespace catchlight::render {
 struct FrameView {
   CameraModel camera;
   RigidTransform camera_from_tag;
+  glm::dvec3 tag_in_scene_m{0.0};  ///< the tag's middle: where the exposure is known
   glm::vec3 exposure{1.0f};
   glm::vec3 black{0.0f};
   glm::vec3 receiver_light{

@@ -210,7 +210,8 @@ render::FrameView frame_view(const Frame& frame, const TrackRow& row, const Came
   view.color = frame.color();
   view.has_pose = row.found;
   if (!row.found) return view;
-  view.camera_from_tag = row.camera_from_tag;
+  view.camera_from_tag = row.camera_from_tag * built.tag_from_scene;
+  view.tag_in_scene_m = -built.tag_from_scene.translation_m;
   const LayerExposure exposure = layer_exposure(scene.exposure, row, tag_irradiance_over_pi(built, row.camera_from_tag));
   view.exposure = exposure.gain;
   view.black = exposure.black;

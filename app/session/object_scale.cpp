@@ -31,17 +31,17 @@ bool is_inside(const render::Bounds& box, const glm::dvec3& place_m) {
 
 }  // namespace
 
-std::string scale_text(const render::Bounds& box, double tag_size_m, const RigidTransform& camera_from_tag) {
+std::string scale_text(const render::Bounds& box, double tag_size_m, const RigidTransform& camera_from_scene) {
   return "object " + size_text(box) + " on a tag of " + length_text(tag_size_m) + ", " +
-         fixed_text(glm::length(camera_from_tag.translation_m), 2) + " m away";
+         fixed_text(glm::length(camera_from_scene.translation_m), 2) + " m away";
 }
 
 std::optional<std::string> scale_warning(const render::Bounds& box, const CameraModel& camera,
-                                         const RigidTransform& camera_from_tag) {
+                                         const RigidTransform& camera_from_scene) {
   const std::string object = "the object, " + size_text(box) + " large, ";
-  if (is_inside(box, inverse(camera_from_tag).translation_m))
+  if (is_inside(box, inverse(camera_from_scene).translation_m))
     return "the camera is inside the object, " + size_text(box) + " large" + kHint + kLargeHint;
-  const double away_m = glm::length(camera_from_tag * glm::dvec3(box.middle_m()));
+  const double away_m = glm::length(camera_from_scene * glm::dvec3(box.middle_m()));
   const double size_px = camera.fx_px * static_cast<double>(box.diagonal_m()) / away_m;
   const double frame_px = std::hypot(camera.width_px, camera.height_px);
   if (size_px < 1) return object + "is smaller than a pixel" + kHint;

@@ -24,7 +24,7 @@ struct PixelExposure {
 };
 
 PixelExposure exposure_of(const render::FrameView& view) {
-  const std::optional<glm::dvec2> tag_px = reference::CameraRays(view.camera, view.camera_from_tag).pixel_of(glm::dvec3(0.0));
+  const std::optional<glm::dvec2> tag_px = reference::CameraRays(view.camera, view.camera_from_tag).pixel_of(view.tag_in_scene_m);
   PixelExposure exposure{{view.exposure, view.black}, view.camera};
   const double passed_at_tag = tag_px ? vignetting_at(view.camera, *tag_px) : 0;
   if (passed_at_tag > 0)
@@ -41,7 +41,7 @@ reference::ReferenceScene traced_scene(const SceneSettings& settings, const Buil
   for (float& value : scene.probe.image.data) value *= static_cast<float>(built.light_gain);
   scene.tag_from_probe = view.tag_from_light * built.orientation.light_from_probe;
   scene.has_receiver = settings.receiver.plane == ReceiverPlane::tag;
-  scene.probe_in_tag_m = probe_in_tag_m(scene.mesh);
+  scene.probe_in_tag_m = probe_in_scene_m(scene.mesh);
   return scene;
 }
 

@@ -90,7 +90,8 @@ std::string mesh_key(const SceneSettings& settings, const std::vector<std::strin
   for (const SceneSettings::Object& object : settings.objects) {
     key += settings.resolve(object.mesh) + '\n';
     if (std::ranges::count(render::kTestObjects, object.mesh) > 0) key += number_text(settings.tag.size_m) + '\n';
-    const glm::dmat4 place = object.tag_from_object();
+    glm::dmat4 place = object.tag_from_object();
+    place[3] -= glm::dvec4(scene_in_tag_m(settings), 0);
     for (int column = 0; column < 4; ++column) key += text_of(place[column]);
   }
   return key;
@@ -171,8 +172,9 @@ void SceneBuilder::load_parts(const SceneSettings& settings, const WarningHandle
   }
   renew(ScenePart::mesh, key, [&](auto&) {
     built_.scene.mesh = load_objects(settings, warn);
-    built_.scene.probe_in_tag_m = glm::vec3(probe_in_tag_m(built_.scene.mesh));
+    built_.scene.probe_in_tag_m = glm::vec3(probe_in_scene_m(built_.scene.mesh));
   });
+  built_.tag_from_scene.translation_m = scene_in_tag_m(settings);
   built_.light_gain = std::exp2(settings.probe.ev);
   built_.orientation = light_orientation(settings.probe);
   const glm::dmat3& fixed_from_light = built_.orientation.fixed_from_light;
@@ -247,6 +249,10 @@ void SceneBuilder::scale_light() {
   for (render::LightSample& sample : scene.lights) sample.irradiance *= built_.light_gain;
   scene.reflections = scaled(reflections_, static_cast<float>(built_.light_gain));
   scene.rest_reflections = scaled(lights_.rest_reflections, static_cast<float>(built_.light_gain));
+}
+
+bool SceneBuilder::needs_bake(const SceneSettings& settings) const {
+  return parts_[static_cast<std::size_t>(ScenePart::mesh)].key != mesh_key(settings, mesh_files_);
 }
 
 const BuiltScene& SceneBuilder::load(const SceneSettings& settings, const WarningHandler& warn) {

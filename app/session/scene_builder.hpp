@@ -33,8 +33,10 @@ inline constexpr std::size_t kSceneParts = 6;
 
 struct BuiltScene {
   render::RenderScene scene;  ///< light and reflections in the light frame, scaled by probe.ev
-  render::Probe probe;        ///< the whole light as its file has it
-  double light_gain = 1;      ///< 2^probe.ev
+  RigidTransform
+      tag_from_scene;     ///< the scene frame of scene_in_tag_m(): an object that slides on the receiver changes only this
+  render::Probe probe;    ///< the whole light as its file has it
+  double light_gain = 1;  ///< 2^probe.ev
   LightOrientation orientation;
   glm::dvec3 still_irradiance_over_pi{0.0};  ///< on the tag, where the light does not follow the camera
   int rays = 0;                              ///< per vertex in the bake
@@ -58,6 +60,9 @@ class SceneBuilder {
   const std::vector<std::string>& mesh_files() const { return mesh_files_; }
   /// The lights that build() split off the probe, brightest first, in the light frame and before probe.ev.
   const std::vector<render::LightSummary>& lights() const { return lights_.lights; }
+  /// Whether build() would bake objects, or take a bake from the cache, that these settings place otherwise than the last ones.
+  /// Objects that slide on the receiver together take theirs along.
+  bool needs_bake(const SceneSettings& settings) const;
 
   /// How often a part was made so far.
   int times_made(ScenePart part) const { return parts_[static_cast<std::size_t>(part)].times_made; }

@@ -23,13 +23,19 @@ constexpr float kQuietlySunk = 0.01f;
 
 constexpr const char* kAdvice = "raise it by tag_from_object.translation_m, or let receiver.plane be \"none\"";
 
+glm::dmat4 scene_from(const SceneSettings& settings, const SceneSettings::Object& object) {
+  glm::dmat4 scene_from_object = object.tag_from_object();
+  scene_from_object[3] -= glm::dvec4(scene_in_tag_m(settings), 0);
+  return scene_from_object;
+}
+
 /// A test object stands where tag_from_object puts its origin, whatever model it turns upright.
 render::Mesh placed_object(const SceneSettings& settings, const SceneSettings::Object& object, const WarningHandler& warn) {
-  const glm::dmat4 tag_from_object = object.tag_from_object();
+  const glm::dmat4 scene_from_object = scene_from(settings, object);
   const std::optional<render::Mesh> shape = render::test_object(object.mesh, settings.tag.size_m);
-  if (!shape) return render::transformed(render::load_mesh(settings.resolve(object.mesh), warn), tag_from_object);
-  render::Mesh placed = render::transformed(*shape, tag_from_object);
-  const float lift_m = static_cast<float>(tag_from_object[3].z) - render::bounds_of(placed).min_m.z;
+  if (!shape) return render::transformed(render::load_mesh(settings.resolve(object.mesh), warn), scene_from_object);
+  render::Mesh placed = render::transformed(*shape, scene_from_object);
+  const float lift_m = static_cast<float>(scene_from_object[3].z) - render::bounds_of(placed).min_m.z;
   for (render::Vertex& vertex : placed.vertices) vertex.position_m.z += lift_m;
   return placed;
 }
@@ -50,6 +56,11 @@ void hide_below_plane(const SceneSettings::Object& object, render::Mesh& part, c
 const glm::dmat3 kCameraFromUpright(glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0, 0, -1));
 
 }  // namespace
+
+glm::dvec3 scene_in_tag_m(const SceneSettings& settings) {
+  if (settings.objects.empty()) return glm::dvec3(0);
+  return {glm::dvec2(settings.objects[0].tag_from_object()[3]), 0};
+}
 
 render::Mesh load_objects(const SceneSettings& settings, const WarningHandler& warn) {
   if (settings.objects.empty())
@@ -88,8 +99,11 @@ LightOrientation light_orientation(const SceneSettings::Probe& probe) {
   return orientation;
 }
 
-glm::dvec3 probe_in_tag_m(const render::Mesh& mesh) {
-  return {0, 0, std::max(render::bounds_of(mesh).max_m.z, 0.0f) / 2};
+glm::dvec3 probe_in_scene_m(const render::Mesh& mesh_scene) {
+  const render::Bounds box = render::bounds_of(mesh_scene);
+  const bool is_origin_below = box.min_m.x <= 0 && box.max_m.x >= 0 && box.min_m.y <= 0 && box.max_m.y >= 0;
+  const glm::dvec2 foot_m = is_origin_below ? glm::dvec2(0) : glm::dvec2(box.middle_m());
+  return {foot_m, std::max(box.max_m.z, 0.0f) / 2};
 }
 
 }  // namespace catchlight::app

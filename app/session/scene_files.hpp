@@ -10,7 +10,11 @@
 
 namespace catchlight::app {
 
-/// The objects in the tag frame as one mesh, fine enough for light kept at its vertices. What lies below a receiver is not
+/// The scene frame: the tag frame moved along the tag's plane to the first object's origin. What is made of the objects is the
+/// same wherever on the plane they lie together.
+glm::dvec3 scene_in_tag_m(const SceneSettings& settings);
+
+/// The objects in the scene frame as one mesh, fine enough for light kept at its vertices. What lies below a receiver is not
 /// there; a warning says how far an object reaches below it. Throws Error where the scene has none, where nothing is left of it,
 /// and as render::load_mesh.
 render::Mesh load_objects(const SceneSettings& settings, const WarningHandler& warn);
@@ -33,7 +37,8 @@ struct LightOrientation {
 
 LightOrientation light_orientation(const SceneSettings::Probe& probe);
 
-/// The place where the probe is taken to have been captured: on the tag's axis, at half the object's height.
-glm::dvec3 probe_in_tag_m(const render::Mesh& mesh);
+/// The place where the probe is taken to have been captured: above the object's foot, at half its height. The foot is the scene
+/// frame's origin where that lies under the mesh, else the middle of what does.
+glm::dvec3 probe_in_scene_m(const render::Mesh& mesh_scene);
 
 }  // namespace catchlight::app

@@ -88,9 +88,11 @@ void Session::note_scale() {
   pass_.report.object.clear();
   const std::optional<TrackRow> row = opened_track().middle_row(options_.range);
   if (!row) return;
-  const render::Bounds box = render::bounds_of(renderer_.load().scene.mesh);
-  pass_.report.object = scale_text(box, recording_.scene.tag.size_m, row->camera_from_tag);
-  if (const auto warning = scale_warning(box, camera_, row->camera_from_tag)) log_.warn(*warning);
+  const BuiltScene& built = renderer_.load();
+  const render::Bounds box = render::bounds_of(built.scene.mesh);
+  const RigidTransform camera_from_scene = row->camera_from_tag * built.tag_from_scene;
+  pass_.report.object = scale_text(box, recording_.scene.tag.size_m, camera_from_scene);
+  if (const auto warning = scale_warning(box, camera_, camera_from_scene)) log_.warn(*warning);
 }
 
 std::optional<FrameJob> Session::decode() {

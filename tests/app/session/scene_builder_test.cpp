@@ -168,6 +168,26 @@ TEST_F(SceneBuild, ObjectsArePlacedAndJoined) {
   EXPECT_NEAR(right_m, 0.11, 1e-6);
 }
 
+TEST_F(SceneBuild, ObjectsThatSlideOnTheReceiverTakeTheirTransferAlong) {
+  SceneBuilder builder;
+  scene_.objects.push_back(scene_.objects[0]);
+  scene_.objects[1].translation_m = {0.05, 0, 0};
+  const BuiltScene before = builder.build(scene_, ignore, {});
+  for (SceneSettings::Object& object : scene_.objects) object.translation_m += glm::dvec3(0.0625, -0.125, 0);
+  EXPECT_FALSE(builder.needs_bake(scene_));
+  const BuiltScene after = builder.build(scene_, ignore, {});
+  EXPECT_EQ(after.version, before.version) << "nothing that is drawn was made anew";
+  EXPECT_EQ(after.tag_from_scene.translation_m, glm::dvec3(0.0625, -0.125, 0));
+  EXPECT_EQ(after.tag_from_scene.rotation, glm::dmat3(1.0));
+
+  scene_.objects[1].translation_m.x += 0.01;
+  EXPECT_TRUE(builder.needs_bake(scene_)) << "they light each other otherwise";
+  scene_.objects[1].translation_m.x -= 0.01;
+  for (SceneSettings::Object& object : scene_.objects) object.translation_m.z += 0.01;
+  EXPECT_TRUE(builder.needs_bake(scene_)) << "the receiver is farther away";
+  EXPECT_GT(builder.build(scene_, ignore, {}).version, before.version);
+}
+
 TEST_F(SceneBuild, SecondBuildTakesTheTransferFromTheCache) {
   const BuiltScene first = build(), second = build();
   EXPECT_FALSE(first.transfer_was_cached);

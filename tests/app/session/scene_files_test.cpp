@@ -76,6 +76,18 @@ TEST_F(SceneObjects, WhatStandsOnTheTagIsLeftAlone) {
   EXPECT_THAT(warnings_, IsEmpty()) << "a fifth of a millimetre is no mistake";
 }
 
+TEST_F(SceneObjects, TheProbeIsAboveTheFootAtHalfTheHeight) {
+  scene_.objects[0].translation_m = {0.3, -0.2, 0.03};
+  EXPECT_EQ(scene_in_tag_m(scene_), glm::dvec3(0.3, -0.2, 0));
+  EXPECT_LT(glm::distance(probe_in_scene_m(load()), glm::dvec3(0, 0, 0.025)), 1e-8);
+
+  std::string beside = kCube;  // a model that stands beside its own origin
+  for (std::size_t at = 0; (at = beside.find("v ", at)) != std::string::npos; at += 2)
+    beside.replace(at, beside.find(' ', at + 2) - at, beside[at + 2] == '-' ? "v 0.98" : "v 1.02");
+  folder_.write("cube.obj", beside);
+  EXPECT_LT(glm::distance(probe_in_scene_m(load()), glm::dvec3(1, 0, 0.025)), 1e-6);
+}
+
 TEST_F(SceneObjects, WhatLiesBelowAsAWholeIsSaid) {
   scene_.objects[0].translation_m.z = -0.1;
   EXPECT_THAT(message_of<Error>([&] { load(); }), AllOf(HasSubstr("above the tag"), HasSubstr("translation_m")));
