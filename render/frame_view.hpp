@@ -23,7 +23,8 @@ struct FrameView {
   glm::vec3 receiver_light{
       0.0f};  ///< unshadowed, exposed linear: what clipped pixels of the plate are taken to hide; 0: not known
   PlateColor color;
-  glm::dmat3 tag_from_light{1.0};  ///< turns the light against the tag (probe fixed to the camera)
+  glm::dmat3 tag_from_light{1.0};  ///< turns the light against the tag
+  bool light_turns = false;        ///< with every frame (probe fixed to the camera): little is to be prepared for each turn
   bool has_pose = true;            ///< false: nothing virtual is drawn; the tone curve, where there is one, is
   std::optional<ToneCurve> tone;   ///< what the exposure has adapted to; none: what the frame itself calls for
   CameraEffects effects;           ///< what else the camera does to the virtual layer

@@ -217,6 +217,7 @@ render::FrameView frame_view(const Frame& frame, const TrackRow& row, const Came
   view.black = exposure.black;
   if (row.has_exposure) view.receiver_light = row.exposure * scene.receiver.albedo + row.black;
   view.tag_from_light = built.orientation.tag_from_light(row.camera_from_tag.rotation);
+  view.light_turns = built.orientation.follows_camera;
   view.effects = camera_effects(scene.lens, row, frame);
   return view;
 }

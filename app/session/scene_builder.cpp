@@ -107,6 +107,15 @@ glm::dvec3 irradiance_over_pi(const BuiltScene& built, const glm::dmat3& tag_fro
   return render::irradiance(built.probe, probe_from_tag * glm::dvec3(0, 0, 1)) / glm::pi<double>();
 }
 
+/// What is enough while something moves.
+SceneSettings::Quality roughened(SceneSettings::Quality quality) {
+  constexpr int kRays = 64, kBounces = 1, kReceiverPoints = 32;
+  quality.rays = std::min(quality.rays, kRays);
+  quality.bounces = std::min(quality.bounces, kBounces);
+  quality.receiver_points = std::min(quality.receiver_points, kReceiverPoints);
+  return quality;
+}
+
 /// The surface around the tag as the probe saw it. A probe that turns with the camera shows another one in most frames.
 render::ReceiverAlbedo choose_receiver_albedo(const BuiltScene& built, const std::string& probe_key, const glm::dvec3& given,
                                               const WarningHandler& warn, std::vector<PlanEntry>& plan) {
@@ -186,35 +195,49 @@ void SceneBuilder::load_parts(const SceneSettings& settings, const WarningHandle
   built_.still_irradiance_over_pi = built_.light_gain * irradiance_over_pi_;
 }
 
-void SceneBuilder::bake(const SceneSettings& settings, const WarningHandler& warn, const ProgressHandler& progress) {
+/// What the receiver's albedo is made from.
+std::string SceneBuilder::receiver_key(const SceneSettings& settings) const {
+  const LightOrientation orientation = light_orientation(settings.probe);
+  return probe_key(settings) + mesh_key(settings, mesh_files_) + (orientation.follows_camera ? " camera " : " tag ") +
+         frame_key(orientation.fixed_from_light * orientation.light_from_probe) + text_of(settings.receiver.albedo);
+}
+
+/// The surface that the objects stand on: its grid, and what it sends back.
+render::ReceiverGrid SceneBuilder::make_receiver(const SceneSettings& settings, int points, const WarningHandler& warn) {
+  if (settings.receiver.plane != ReceiverPlane::tag) return {};
+  renew(ScenePart::receiver_albedo, receiver_key(settings), [&](auto& plan) {
+    receiver_albedo_ = choose_receiver_albedo(built_, probe_content_, settings.receiver.albedo, warn, plan);
+    albedo_is_seen_ = receiver_albedo_.known() && !built_.orientation.follows_camera;
+  });
+  return render::receiver_grid_for(built_.scene.mesh, points);
+}
+
+void SceneBuilder::bake(const SceneSettings& settings, const WarningHandler& warn, const ProgressHandler& progress,
+                        BakeFineness fineness) {
+  const bool is_rough = fineness == BakeFineness::rough, has_receiver = settings.receiver.plane == ReceiverPlane::tag;
   const render::Mesh& mesh = built_.scene.mesh;
-  render::TransferOptions options;
-  options.bands = choose_bands(settings, mesh.vertices.size(), built_.plan);
-  options.rays = built_.rays = choose_rays(settings, mesh.vertices.size(), built_.plan);
-  options.bounces = settings.quality.bounces;
-  const bool has_receiver = settings.receiver.plane == ReceiverPlane::tag;
-  const render::ReceiverGrid grid =
-      has_receiver ? render::receiver_grid_for(mesh, settings.quality.receiver_points) : render::ReceiverGrid{};
-  if (has_receiver) {
-    const std::string key =
-        probe_key(settings) + mesh_key(settings, mesh_files_) + (built_.orientation.follows_camera ? " camera " : " tag ") +
-        frame_key(built_.orientation.fixed_from_light * built_.orientation.light_from_probe) + text_of(settings.receiver.albedo);
-    renew(ScenePart::receiver_albedo, key, [&](auto& plan) {
-      receiver_albedo_ = choose_receiver_albedo(built_, probe_content_, settings.receiver.albedo, warn, plan);
-    });
-    options.receiver_albedo = receiver_albedo_;
-  }
+  SceneSettings::Quality quality = settings.quality;
+  quality.bands = choose_bands(settings, mesh.vertices.size(), built_.plan);
+  quality.rays = choose_rays(settings, mesh.vertices.size(), built_.plan);
+  if (is_rough) quality = roughened(quality);
+  built_.rays = quality.rays;
+  render::TransferOptions options{.bands = quality.bands, .rays = quality.rays, .bounces = quality.bounces};
+  const render::ReceiverGrid grid = make_receiver(settings, quality.receiver_points, warn);
+  if (has_receiver) options.receiver_albedo = receiver_albedo_;
   // The mesh itself is hashed only where it is a new one, for it may be large; the grid follows from it.
   render::ContentHash albedo;
   albedo.add(options.receiver_albedo.seen_from_m);
   albedo.add(options.receiver_albedo.image.data);
-  const std::string key = std::to_string(times_made(ScenePart::mesh)) + ' ' + albedo.text() + ' ' + std::to_string(grid.columns) +
-                          ' ' + std::to_string(grid.rows) + ' ' + std::to_string(options.bands) + ' ' +
-                          std::to_string(options.rays) + ' ' + std::to_string(options.bounces);
+  std::string key = std::to_string(times_made(ScenePart::mesh)) + ' ' + albedo.text();
+  for (const int number : {grid.columns, grid.rows, options.bands, options.rays, options.bounces})
+    key += ' ' + std::to_string(number);
   renew(ScenePart::transfer, key, [&](auto&) {
-    built_.scene.transfer_key = render::transfer_key(mesh, grid, options);
-    built_.scene.transfer = render::load_or_bake_transfer(mesh, grid, options, render::default_cache_folder(), progress, warn,
-                                                          &built_.transfer_was_cached);
+    render::RenderScene& scene = built_.scene;
+    built_.transfer_was_cached = false;
+    scene.transfer_key = is_rough ? "" : render::transfer_key(mesh, grid, options);
+    scene.transfer = is_rough ? render::bake_transfer(mesh, grid, options, progress)
+                              : render::load_or_bake_transfer(mesh, grid, options, render::default_cache_folder(), progress, warn,
+                                                              &built_.transfer_was_cached);
   });
   built_.plan.push_back({"bounces", std::to_string(options.bounces), origin_of(settings, "quality.bounces")});
   built_.plan.push_back({"shadow",
@@ -252,7 +275,9 @@ void SceneBuilder::scale_light() {
 }
 
 bool SceneBuilder::needs_bake(const SceneSettings& settings) const {
-  return parts_[static_cast<std::size_t>(ScenePart::mesh)].key != mesh_key(settings, mesh_files_);
+  const auto differs = [&](ScenePart part, const std::string& key) { return parts_[static_cast<std::size_t>(part)].key != key; };
+  return differs(ScenePart::mesh, mesh_key(settings, mesh_files_)) ||
+         (albedo_is_seen_ && differs(ScenePart::receiver_albedo, receiver_key(settings)));
 }
 
 const BuiltScene& SceneBuilder::load(const SceneSettings& settings, const WarningHandler& warn) {
@@ -260,10 +285,10 @@ const BuiltScene& SceneBuilder::load(const SceneSettings& settings, const Warnin
   return built_;
 }
 
-const BuiltScene& SceneBuilder::build(const SceneSettings& settings, const WarningHandler& warn,
-                                      const ProgressHandler& progress) {
+const BuiltScene& SceneBuilder::build(const SceneSettings& settings, const WarningHandler& warn, const ProgressHandler& progress,
+                                      BakeFineness fineness) {
   load_parts(settings, warn);
-  bake(settings, warn, progress);
+  bake(settings, warn, progress, fineness);
   light(settings, warn);
   std::string drawn = number_text(built_.light_gain);
   for (const ScenePart part : {ScenePart::mesh, ScenePart::transfer, ScenePart::reflections, ScenePart::lights})

@@ -31,6 +31,12 @@ enum class ScenePart {
 };
 inline constexpr std::size_t kSceneParts = 6;
 
+/// How finely light is baked.
+enum class BakeFineness {
+  full,  ///< as the settings say
+  rough  ///< in a fraction of the time, for what moves under a hand; not kept in the cache
+};
+
 struct BuiltScene {
   render::RenderScene scene;  ///< light and reflections in the light frame, scaled by probe.ev
   RigidTransform
@@ -52,7 +58,8 @@ class SceneBuilder {
 
   /// load(), and bakes the transfer or takes it from the cache, prefilters and splits the probe. Where it throws, parts that are
   /// not done yet are made by the next call.
-  const BuiltScene& build(const SceneSettings& settings, const WarningHandler& warn, const ProgressHandler& progress);
+  const BuiltScene& build(const SceneSettings& settings, const WarningHandler& warn, const ProgressHandler& progress,
+                          BakeFineness fineness = BakeFineness::full);
 
   const BuiltScene& scene() const { return built_; }
 
@@ -60,8 +67,9 @@ class SceneBuilder {
   const std::vector<std::string>& mesh_files() const { return mesh_files_; }
   /// The lights that build() split off the probe, brightest first, in the light frame and before probe.ev.
   const std::vector<render::LightSummary>& lights() const { return lights_.lights; }
-  /// Whether build() would bake objects, or take a bake from the cache, that these settings place otherwise than the last ones.
-  /// Objects that slide on the receiver together take theirs along.
+
+  /// Whether the objects, their places or the receiver's albedo differ from those of the last bake. Objects that slide on the
+  /// receiver together take theirs along.
   bool needs_bake(const SceneSettings& settings) const;
 
   /// How often a part was made so far.
@@ -77,7 +85,9 @@ class SceneBuilder {
   void renew(ScenePart part, const std::string& key, const Make& make);
 
   void load_parts(const SceneSettings& settings, const WarningHandler& warn);
-  void bake(const SceneSettings& settings, const WarningHandler& warn, const ProgressHandler& progress);
+  std::string receiver_key(const SceneSettings& settings) const;
+  render::ReceiverGrid make_receiver(const SceneSettings& settings, int points, const WarningHandler& warn);
+  void bake(const SceneSettings& settings, const WarningHandler& warn, const ProgressHandler& progress, BakeFineness fineness);
   void light(const SceneSettings& settings, const WarningHandler& warn);
   void scale_light();
 
@@ -88,6 +98,7 @@ class SceneBuilder {
   glm::dvec3 irradiance_over_pi_{0.0};  ///< still_irradiance_over_pi before probe.ev
   std::string probe_content_;           ///< render::content_key of the probe
   render::ReceiverAlbedo receiver_albedo_;
+  bool albedo_is_seen_ = false;  ///< by the probe: it turns with that
   // The light as the probe's file has it, before probe.ev.
   render::ReflectionMap reflections_;
   render::ProbeLights lights_;

@@ -245,7 +245,7 @@ std::vector<TrackRow> Session::track_range() {
   return rows;
 }
 
-void Session::apply(const SceneSettings& settings) {
+void Session::apply(const SceneSettings& settings, BakeFineness fineness) {
   const std::set<ChangeCost> costs = costs_of_change(recording_.scene, settings);
   const bool is_tracked_anew = costs.contains(ChangeCost::track) || costs.contains(ChangeCost::footage);
   const bool is_one_pass = footage_->info().is_one_pass;
@@ -260,7 +260,7 @@ void Session::apply(const SceneSettings& settings) {
     renderer_.restart();
   }
   recording_ = std::move(changed);
-  renderer_.apply(settings);
+  renderer_.apply(settings, fineness);
   if (is_tracked_anew) track_.reset(), never_found_.reset();
 }
 

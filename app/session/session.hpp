@@ -81,7 +81,7 @@ class Session {
 
   /// Takes new settings for the frames to come, and redoes no more than they ask for. Where the footage itself has to be read
   /// anew (another response), or tracked anew, decode() starts at the first frame again.
-  void apply(const SceneSettings& settings);
+  void apply(const SceneSettings& settings, BakeFineness fineness = BakeFineness::full);
 
   const Recording& recording() const { return recording_; }
   const SceneSettings& settings() const { return recording_.scene; }

@@ -57,11 +57,12 @@ ShotRenderer::~ShotRenderer() {
   if (context_) context_->make_current();
 }
 
-void ShotRenderer::apply(const SceneSettings& settings) {
+void ShotRenderer::apply(const SceneSettings& settings, BakeFineness fineness) {
   const SceneSettings::Exposure &before = settings_.exposure, &after = settings.exposure;
   if (!costs_of_change(settings_, settings).empty()) metered_.clear();
   const bool adapts_otherwise = before.adapt_bright_s != after.adapt_bright_s || before.adapt_dark_s != after.adapt_dark_s;
   settings_ = settings;
+  fineness_ = fineness;
   is_loaded_ = is_built_ = false;
   if (adapts_otherwise) restart();
 }
@@ -92,7 +93,7 @@ void ShotRenderer::restart() {
 void ShotRenderer::prepare() {
   open_renderer();
   if (is_built_) return;
-  const BuiltScene& built = builder_.build(settings_, log_.warning_handler(), progress_handler(log_, "bake"));
+  const BuiltScene& built = builder_.build(settings_, log_.warning_handler(), progress_handler(log_, "bake"), fineness_);
   const render::CompositorSettings wanted = compositor_settings(settings_);
   const std::string aperture = file_stamp(wanted.glare.aperture);
   if (!compositor_ || drawn_version_ != built.version || drawn_settings_ != wanted || drawn_aperture_ != aperture) {
@@ -117,6 +118,7 @@ std::vector<std::string> ShotRenderer::reload_shaders() {
 
 void ShotRenderer::view(FrameJob& job) {
   job.view = frame_view(job.image, job.track, camera_, settings_, load());
+  if (fineness_ == BakeFineness::rough) job.view.light_turns = true;  // under a hand, it does
   if (adapts()) job.view.tone = adaptation_.at(job.image.time_s());
 }
 

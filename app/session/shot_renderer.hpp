@@ -32,7 +32,7 @@ class ShotRenderer {
   ShotRenderer& operator=(const ShotRenderer&) = delete;
 
   /// Takes settings for the frames to come.
-  void apply(const SceneSettings& settings);
+  void apply(const SceneSettings& settings, BakeFineness fineness = BakeFineness::full);
 
   /// Reads the scene's files, which view() needs. Quick, so that what is missing is found early.
   const BuiltScene& load();
@@ -97,6 +97,7 @@ class ShotRenderer {
   std::shared_ptr<render::ShaderLibrary> shaders_;  ///< outlives compositors; null where the processor draws
   std::string renderer_name_;
   SceneBuilder builder_;
+  BakeFineness fineness_ = BakeFineness::full;
   bool is_loaded_ = false, is_built_ = false;  ///< with these settings
   int drawn_version_ = 0;
   std::optional<render::CompositorSettings> drawn_settings_;  ///< the compositor's

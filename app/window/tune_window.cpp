@@ -75,8 +75,7 @@ void TuneWindow::open(const OpenedRecording& wanted) {
   history_.emplace(recording.scene);
   playhead_ = {};
   shown_ = nullptr;
-  wished_settings_.reset();
-  wished_position_ = -1;
+  wished_.reset();
   player_ = std::make_unique<ShotPlayer>(std::move(recording), [&surface = surface_] { surface.wake(); });
   surface_.set_title(recording_->name + " – Catchlight");
 }
@@ -121,11 +120,21 @@ void TuneWindow::save(const std::string& path) {
   }
 }
 
+/// What is to be seen now.
+FrameWish TuneWindow::wanted() const {
+  const bool is_turned = hands_.holds() || ImGui::IsAnyItemActive();
+  return {history_->now(), playhead_.position(), playhead_.is_playing() || is_turned, picture_view_.wanted()};
+}
+
+/// Whether the player was not asked for that yet.
+bool TuneWindow::is_new(const FrameWish& wish) const {
+  return !wished_ || wished_->position != wish.position || wished_->moves != wish.moves || wished_->extras != wish.extras ||
+         !costs_of_change(wished_->settings, wish.settings).empty();
+}
+
 bool TuneWindow::is_idle() const {
-  const bool asks_nothing_new = !player_ || (wished_position_ == playhead_.position() && wished_rung_ == rung() &&
-                                             wished_extras_ == picture_view_.wanted() && wished_settings_ && player_->is_idle() &&
-                                             costs_of_change(*wished_settings_, history_->now()).empty());
-  return asks_nothing_new && screenshot_.empty() && !playhead_.is_playing() && (!player_ || shown_ == player_->newest());
+  const bool is_shown = !player_ || (!is_new(wanted()) && player_->is_idle() && shown_ == player_->newest());
+  return is_shown && screenshot_.empty() && !playhead_.is_playing();
 }
 
 double TuneWindow::rest_s() {
@@ -133,13 +142,6 @@ double TuneWindow::rest_s() {
   const bool changes = !is_idle() || picture_view_.view == View::flicker || ImGui::GetIO().WantTextInput;
   const double next_s = player_ ? playhead_.until_next_s(player_->status().frame_rate).value_or(kLong_s) : kLong_s;
   return pace_.rest_s(std::min(next_s, changes ? kProgress_s : kLong_s));
-}
-
-/// Fewer rays and samples where full quality could not follow a hand, or the footage.
-Rung TuneWindow::rung() const {
-  constexpr double kSmooth_ms = 1000.0 / 15;
-  const bool moves = playhead_.is_playing() || hands_.holds() || ImGui::IsAnyItemActive();
-  return moves && full_ms_ > kSmooth_ms ? Rung::fast : Rung::full;
 }
 
 /// While the footage plays, the next frame is asked for when the last one came: what cannot be drawn in time is left out.
@@ -150,20 +152,10 @@ void TuneWindow::ask_player() {
   playhead_.advance(ImGui::GetIO().DeltaTime, status.frame_rate);
   shown_ = player_->newest();
   if (playhead_.is_playing() && !player_->is_idle()) return;
-  if (shown_ && shown_->wish != 0 && shown_->rung == Rung::full) {
-    full_ms_ = 0;
-    for (const render::PassTime& pass : shown_->pass_times) full_ms_ += pass.ms;
-  }
-  const Rung wanted = rung();
-  const bool is_new = wished_position_ != playhead_.position() || wished_rung_ != wanted ||
-                      wished_extras_ != picture_view_.wanted() || !wished_settings_ ||
-                      !costs_of_change(*wished_settings_, history_->now()).empty();
-  if (!is_new) return;
-  wished_position_ = playhead_.position();
-  wished_rung_ = wanted;
-  wished_extras_ = picture_view_.wanted();
-  wished_settings_ = history_->now();
-  player_->wish(*wished_settings_, wished_position_, wanted, wished_extras_);
+  FrameWish wish = wanted();
+  if (!is_new(wish)) return;
+  wished_ = wish;
+  player_->ask(std::move(wish));
 }
 
 void TuneWindow::take_keys() {

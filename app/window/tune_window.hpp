@@ -60,7 +60,8 @@ class TuneWindow final : public ScriptTarget {
 
  private:
   void ask_player();
-  Rung rung() const;
+  FrameWish wanted() const;
+  bool is_new(const FrameWish& wish) const;
   void open(const OpenedRecording& wanted);
   void leave_for(std::optional<OpenedRecording> next);
   void leave();
@@ -85,11 +86,7 @@ class TuneWindow final : public ScriptTarget {
   std::optional<SettingsHistory> history_;  ///< there is one where there is a recording
   std::unique_ptr<ShotPlayer> player_;
   std::shared_ptr<const DrawnFrame> shown_;
-  std::optional<SceneSettings> wished_settings_;
-  std::int64_t wished_position_ = -1;
-  Rung wished_rung_ = Rung::full;
-  FrameExtras wished_extras_;
-  double full_ms_ = 0;  ///< what a frame of full quality took to draw
+  std::optional<FrameWish> wished_;  ///< what the player was asked for last
   Playhead playhead_;
   PictureView picture_view_;
   ParameterControls controls_;

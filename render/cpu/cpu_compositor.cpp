@@ -25,7 +25,7 @@ struct CpuCompositor::Impl {
   Composite render(const FrameView& view, const PlateReader& plate, bool want_layers, bool want_picture,
                    const CompositeSink& take);
   SceneNeeds needs() const;
-  void relight(const glm::dmat3& tag_from_light);
+  void relight(const FrameView& view);
   bool divides_glare() const;
   void read_plate(const FrameView& view, const PlateReader& plate, const PixelRect& rect);
   void make_images(const FrameView& view, const FramePlan& plan);
@@ -44,6 +44,7 @@ struct CpuCompositor::Impl {
   std::unique_ptr<CpuGlare> glare;
   std::optional<CpuTone> tone;         ///< none: neither a tone curve nor the classic look
   std::optional<glm::dmat3> lit_from;  ///< the light's turn that all is lit for
+  bool lit_in_passing = false;         ///< for a light that turns with every frame
   PixelRays pixel_rays;
   ResponseTable response;
   Plate plate;
@@ -77,15 +78,15 @@ SceneNeeds CpuCompositor::Impl::needs() const {
   return result;
 }
 
-/// The light turns against the object only where the probe is fixed to the camera.
-void CpuCompositor::Impl::relight(const glm::dmat3& tag_from_light) {
-  const bool stands_still = tag_from_light == glm::dmat3(1.0);
-  const SplitLight light_tag = stands_still ? light_probe : turned(light_probe, tag_from_light);
+void CpuCompositor::Impl::relight(const FrameView& view) {
+  const bool stands_still = !view.light_turns, is_turned = view.tag_from_light != glm::dmat3(1.0);
+  const SplitLight light_tag = is_turned ? turned(light_probe, view.tag_from_light) : light_probe;
   KeyedCache kept;
   if (stands_still && !scene.transfer_key.empty()) kept = {ContentCache(""), content_hash(scene.transfer_key, light_tag)};
   object.light_by(light_tag, stands_still, kept);
   if (receiver) receiver->update(light_tag, stands_still, kept);
-  lit_from = tag_from_light;
+  lit_from = view.tag_from_light;
+  lit_in_passing = view.light_turns;
 }
 
 /// What the object emits glares otherwise than what it reflects.
@@ -201,7 +202,8 @@ Composite CpuCompositor::Impl::render(const FrameView& view, const PlateReader& 
                                       const CompositeSink& take) {
   check_view(view);
   clock.begin_frame();
-  if (view.has_pose && lit_from != view.tag_from_light) clock.pass("light", [&] { relight(view.tag_from_light); });
+  const bool is_lit = lit_from == view.tag_from_light && lit_in_passing == view.light_turns;
+  if (view.has_pose && !is_lit) clock.pass("light", [&] { relight(view); });
   const FramePlan plan = plan_frame(view, needs(), want_layers);
   Composite result;
   if (plan.empty()) return result;

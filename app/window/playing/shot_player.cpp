@@ -21,7 +21,7 @@ namespace {
 /// How often is looked whether files were saved anew.
 constexpr auto kWatchInterval = std::chrono::milliseconds(300);
 
-/// Thrown out of what takes long when nobody waits for it any more.
+/// Thrown out of what takes long when nobody waits for it any more: the window is closed, or other settings are wanted.
 struct GivenUp {};
 
 RgbPicture rgb_of(const Frame& frame) {
@@ -52,11 +52,11 @@ ShotPlayer::ShotPlayer(Recording recording, std::function<void()> tell)
 
 ShotPlayer::~ShotPlayer() = default;
 
-std::uint64_t ShotPlayer::wish(const SceneSettings& settings, std::int64_t position, Rung rung, const FrameExtras& extras) {
+std::uint64_t ShotPlayer::ask(FrameWish wish) {
   const std::lock_guard lock(mutex_);
-  next_ = Wish{++last_wish_, settings, position, rung, extras};
+  next_ = std::move(wish);
   wished_.notify_one();
-  return last_wish_;
+  return ++last_wish_;
 }
 
 std::shared_ptr<const DrawnFrame> ShotPlayer::newest() const {
@@ -100,10 +100,15 @@ void ShotPlayer::show_footage() {
   tell_();
 }
 
+/// Whether a bake for the session's settings is of no use to the wish.
+bool ShotPlayer::asks_otherwise(const FrameWish& wish) const {
+  return !is_rough_ && session_->renderer().builder().needs_bake(wish.settings);
+}
+
 void ShotPlayer::open(const std::stop_token& stop) {
   log_.set_task_handler([this, stop](const std::string& stage, double share) {
-    if (stop.stop_requested()) throw GivenUp{};
     const std::lock_guard lock(mutex_);
+    if (stop.stop_requested() || (stage == "bake" && next_ && session_ && asks_otherwise(*next_))) throw GivenUp{};
     status_.stage = stage, status_.share = share;
   });
   if (!newest()) show_footage();
@@ -181,19 +186,36 @@ void ShotPlayer::render(FrameJob& job, const std::shared_ptr<DrawnFrame>& drawn)
   }
 }
 
-void ShotPlayer::draw(const Wish& wish) {
+/// While something moves that bakes are made from, rough ones are enough, until it rests.
+Rung ShotPlayer::apply(const FrameWish& wish) {
+  constexpr double kSmooth_ms = 1000.0 / 15;
+  is_rough_ = wish.moves && (is_rough_ || session_->renderer().builder().needs_bake(wish.settings));
+  const bool is_quick = wish.moves && full_ms_ > kSmooth_ms;
+  session_->apply(is_quick ? quicker(wish.settings) : wish.settings, is_rough_ ? BakeFineness::rough : BakeFineness::full);
+  return is_rough_ ? Rung::rough : is_quick ? Rung::quick : Rung::full;
+}
+
+/// The first frame of a scene takes longer than those that follow.
+void ShotPlayer::note_time(Rung rung) {
+  const int version = session_->renderer().builder().scene().version;
+  const bool is_typical = rung == Rung::full && version == std::exchange(drawn_version_, version);
+  if (!is_typical) return;
+  full_ms_ = 0;
+  for (const render::PassTime& pass : session_->renderer().pass_times()) full_ms_ += pass.ms;
+}
+
+void ShotPlayer::draw(const FrameWish& wish) {
   const auto start = std::chrono::steady_clock::now();
-  const SceneSettings settings = wish.rung == Rung::full ? wish.settings : quicker(wish.settings);
-  const std::set<ChangeCost> costs = costs_of_change(session_->settings(), settings);
+  const std::set<ChangeCost> costs = costs_of_change(session_->settings(), wish.settings);
   if (costs.contains(ChangeCost::track) || costs.contains(ChangeCost::footage)) tracks_anew_ = true;
-  session_->apply(settings);
+  const Rung rung = apply(wish);
   session_->seek(wish.position);
   std::optional<FrameJob> job = session_->decode();
   if (!job) return;
   session_->track(*job);
   if (std::exchange(tracks_anew_, false)) note_pose_errors();
   auto drawn = std::make_shared<DrawnFrame>();
-  drawn->position = wish.position, drawn->wish = wish.number, drawn->rung = wish.rung;
+  drawn->position = wish.position, drawn->wish = wish_number_, drawn->rung = rung;
   drawn->number = job->image.number(), drawn->time_s = job->image.time_s();
   drawn->plate = drawn->composite = rgb_of(job->image);
   drawn->truth = truth_of(job->image);
@@ -202,10 +224,13 @@ void ShotPlayer::draw(const Wish& wish) {
   drawn->camera = session_->camera();
   drawn->target = session_->settings().tag.target();
   render(*job, drawn);
+  note_time(rung);
   drawn->composited = job->image.with_composite(job->result);
   if (!job->result.rect.empty()) drawn->composite = rgb_of(*drawn->composited);
-  const render::ReceiverGrid& grid = session_->renderer().builder().scene().scene.transfer.grid;
-  if (grid.columns >= 2) drawn->receiver = {grid.min_m, grid.max_m};
+  const BuiltScene& built = session_->renderer().builder().scene();
+  const render::ReceiverGrid& grid = built.scene.transfer.grid;
+  const glm::vec2 foot_m(built.tag_from_scene.translation_m);
+  if (grid.columns >= 2) drawn->receiver = {grid.min_m + foot_m, grid.max_m + foot_m};
   drawn->light = light_maker_.light_of(*job, session_->settings(), session_->renderer().builder());
   drawn->pass_times = session_->renderer().pass_times();
   draw_extras(wish.extras, *job, *drawn->image, *drawn);
@@ -217,23 +242,21 @@ void ShotPlayer::draw(const Wish& wish) {
 }
 
 /// Waits for a wish, or for a file that is saved: the last wish is fulfilled anew then. None where the player is to end.
-std::optional<ShotPlayer::Wish> ShotPlayer::next_wish(const std::stop_token& stop) {
+std::optional<FrameWish> ShotPlayer::next_wish(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     changed_ = watch_.take_changed();
     std::unique_lock lock(mutex_);
     if (changed_.empty()) wished_.wait_for(lock, stop, kWatchInterval, [&] { return next_.has_value(); });
-    if (next_) return std::exchange(next_, std::nullopt);
-    if (changed_.empty()) continue;
-    Wish again = wish_;
-    again.number = ++last_wish_;
-    return again;
+    if (!next_ && changed_.empty()) continue;
+    wish_number_ = next_ ? last_wish_ : ++last_wish_;
+    return next_ ? std::exchange(next_, std::nullopt) : wish_;
   }
   return {};
 }
 
 void ShotPlayer::run(const std::stop_token& stop) {
-  while (const std::optional<Wish> wish = next_wish(stop)) {
-    wish_ = *wish;
+  while (std::optional<FrameWish> wish = next_wish(stop)) {
+    wish_ = std::move(*wish);
     std::optional<std::string> error;
     try {
       see_changes();
@@ -242,12 +265,12 @@ void ShotPlayer::run(const std::stop_token& stop) {
       draw(wish_);
       watch_files(wish_.settings);  // now it is known what the models name
     } catch (const GivenUp&) {
-      return;
+      continue;
     } catch (const std::exception& failure) {
       error = failure.what();
     }
     if (!error && !shader_problems_.empty()) error = shader_problems_.front();
-    finish(wish_.number, error);
+    finish(wish_number_, error);
     tell_();
   }
 }

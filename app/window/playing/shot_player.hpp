@@ -37,12 +37,21 @@ class Session;
 
 /// How well a frame is drawn.
 enum class Rung {
-  full,  ///< as `overlay` draws it
-  fast   ///< with fewer rays and samples: while something moves that would not be smooth otherwise
+  full,   ///< as `overlay` draws it
+  quick,  ///< with fewer rays and samples, where full quality could not follow what moves
+  rough   ///< from a rough bake, while something moves that bakes are made from
 };
 constexpr auto names_of(Rung) {
-  return std::array{"full quality", "fewer rays and samples while it moves"};
+  return std::array{"full quality", "fewer rays and samples while it moves", "roughly baked while it moves"};
 }
+
+/// A frame that somebody wants to see.
+struct FrameWish {
+  SceneSettings settings;
+  std::int64_t position = 0;  ///< among the shot's frames, from 0
+  bool moves = false;         ///< a hand or the footage: a lower rung will do where full quality would not be smooth
+  FrameExtras extras = {};
+};
 
 /// One frame as it was drawn.
 struct DrawnFrame {
@@ -91,9 +100,8 @@ class ShotPlayer {
   ShotPlayer(const ShotPlayer&) = delete;
   ShotPlayer& operator=(const ShotPlayer&) = delete;
 
-  /// Asks for a frame under these settings. What was asked for before and has not begun is left out. The number of the wish.
-  std::uint64_t wish(const SceneSettings& settings, std::int64_t position, Rung rung = Rung::full,
-                     const FrameExtras& extras = {});
+  /// Asks for a frame. What was asked for before and has not begun is left out. The number of the wish.
+  std::uint64_t ask(FrameWish wish);
 
   /// The newest frame drawn; null before the first.
   std::shared_ptr<const DrawnFrame> newest() const;
@@ -104,21 +112,16 @@ class ShotPlayer {
   bool is_idle() const;
 
  private:
-  struct Wish {
-    std::uint64_t number = 0;
-    SceneSettings settings;
-    std::int64_t position = 0;
-    Rung rung = Rung::full;
-    FrameExtras extras;
-  };
-
   void run(const std::stop_token& stop);
   void open(const std::stop_token& stop);
-  std::optional<Wish> next_wish(const std::stop_token& stop);
+  std::optional<FrameWish> next_wish(const std::stop_token& stop);
   void see_changes();
   void watch_files(const SceneSettings& settings);
-  void draw(const Wish& wish);
+  bool asks_otherwise(const FrameWish& wish) const;
+  Rung apply(const FrameWish& wish);
+  void draw(const FrameWish& wish);
   void render(FrameJob& job, const std::shared_ptr<DrawnFrame>& drawn);
+  void note_time(Rung rung);
   void draw_extras(const FrameExtras& extras, const FrameJob& job, const Frame& plate, DrawnFrame& drawn);
   RgbPicture truth_of(const Frame& frame) const;
   void show_footage();
@@ -133,13 +136,17 @@ class ShotPlayer {
   std::unique_ptr<Session> session_;
   FrameLightMaker light_maker_;
   bool tracks_anew_ = true;  ///< since the pose errors were noted
-  Wish wish_;                ///< the last one
+  FrameWish wish_;           ///< the last one
+  std::uint64_t wish_number_ = 0;
+  bool is_rough_ = false;  ///< the session's bake
+  int drawn_version_ = 0;  ///< of the scene that was drawn last
+  double full_ms_ = 0;     ///< what a frame of full quality takes to draw once its scene is built
   FileWatch watch_;
   std::set<std::string> changed_;  ///< files, since the last wish
   std::vector<std::string> shader_problems_;
   mutable std::mutex mutex_;  ///< of all that follows
   std::condition_variable_any wished_;
-  std::optional<Wish> next_;
+  std::optional<FrameWish> next_;
   std::uint64_t last_wish_ = 0, finished_ = 0;
   std::shared_ptr<const DrawnFrame> newest_;
   PlayerStatus status_;

@@ -62,13 +62,22 @@ TEST_F(SessionTest, ProbeEvCostsNeitherABakeNorAPrefilter) {
 TEST_F(SessionTest, AChangedPartIsMadeAgainAndNoOther) {
   Session session(recording(), {.track_file = kRecording + "/poses.csv"}, log_);
   for (int i = 0; i < kFrame; ++i) drawn(session);
-  const Recording moved = with({{"object.tag_from_object.translation_m", "0.01,0,0"}});
-  session.apply(moved.scene);
-  expect_same(drawn(session), drawn_afresh(moved));
+  const Recording raised = with({{"object.tag_from_object.translation_m", "0.01,0.02,0.01"}});
+  session.apply(raised.scene);
+  expect_same(drawn(session), drawn_afresh(raised));
   EXPECT_EQ(times_made(session, ScenePart::mesh), 2);
   EXPECT_EQ(times_made(session, ScenePart::transfer), 2);
   EXPECT_EQ(times_made(session, ScenePart::probe), 1);
   EXPECT_EQ(times_made(session, ScenePart::reflections), 1);
+}
+
+TEST_F(SessionTest, WhatSlidesOnTheReceiverTakesItsLightAlong) {
+  Session session(recording(), {.track_file = kRecording + "/poses.csv"}, log_);
+  for (int i = 0; i < kFrame; ++i) drawn(session);
+  const Recording slid = with({{"object.tag_from_object.translation_m", "0.01,0.02,0"}});
+  session.apply(slid.scene);
+  expect_same(drawn(session), drawn_afresh(slid));
+  EXPECT_EQ(times_made(session, ScenePart::mesh) + times_made(session, ScenePart::transfer), 2);
 }
 
 TEST_F(SessionTest, SettingsOfTheViewAndOfThePassesMakeNoPartAnew) {

@@ -102,6 +102,7 @@ Plate plate_of(const PixelRect& rect) {
 }
 
 FrameView turned(FrameView view, double angle_rad) {
+  view.light_turns = true;
   view.tag_from_light = glm::dmat3(glm::dvec3(std::cos(angle_rad), std::sin(angle_rad), 0),
                                    glm::dvec3(-std::sin(angle_rad), std::cos(angle_rad), 0), glm::dvec3(0, 0, 1));
   return view;

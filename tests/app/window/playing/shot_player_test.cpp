@@ -44,7 +44,7 @@ class ShotPlayerTest : public ::testing::Test {
 
   /// Asks for the first frame, and looks every few milliseconds until it is as it should be: the test's time limit ends the rest.
   static std::shared_ptr<const DrawnFrame> first_frame(ShotPlayer& player, const Recording& recording) {
-    player.wish(recording.scene, 0);
+    player.ask({.settings = recording.scene});
     until([&] { return player.is_idle(); });
     return player.newest();
   }
@@ -72,7 +72,7 @@ TEST_F(ShotPlayerTest, DrawsAProbeThatWasSavedAnew) {
 TEST_F(ShotPlayerTest, ShowsTheFootageWhereTheProbeIsMissingUntilItComes) {
   std::filesystem::remove(folder_.path("probe.exr"));
   ShotPlayer player(recording());
-  player.wish(recording().scene, 3);
+  player.ask({.settings = recording().scene, .position = 3});
   until([&] { return player.is_idle(); });
   EXPECT_THAT(player.status().error.value_or(""), HasSubstr("probe.exr"));
   EXPECT_EQ(player.newest()->position, 3);
@@ -103,6 +103,34 @@ TEST_F(ShotPlayerTest, OpensTheShotAgainWithACameraThatWasSavedAnew) {
   EXPECT_EQ(player.newest()->composite.rgb, before->composite.rgb);
 }
 
+TEST_F(ShotPlayerTest, BakesRoughlyWhileAHandTurnsAndFullyWhenItRests) {
+  Recording turned = recording();
+  ShotPlayer player(turned);
+  const auto still = first_frame(player, turned);
+  const auto ask = [&](double yaw_deg, bool moves) {
+    set_parameter_from_text(turned.scene, "probe.yaw_deg", std::to_string(yaw_deg));
+    player.ask({.settings = turned.scene, .moves = moves});
+    until([&] { return player.is_idle(); });
+    return player.newest();
+  };
+  EXPECT_EQ(still->rung, Rung::full);
+  EXPECT_EQ(ask(20, true)->rung, Rung::rough);
+  EXPECT_EQ(ask(0, true)->rung, Rung::rough) << "still under the hand";
+  const auto rested = ask(0, false);
+  EXPECT_EQ(rested->rung, Rung::full);
+  EXPECT_EQ(rested->composite.rgb, still->composite.rgb);
+}
+
+TEST_F(ShotPlayerTest, SlidesAnObjectAtFullQuality) {
+  Recording slid = recording();
+  ShotPlayer player(slid);
+  first_frame(player, slid);
+  slid.scene.objects[0].translation_m.x += 0.01;
+  player.ask({.settings = slid.scene, .moves = true});
+  until([&] { return player.is_idle(); });
+  EXPECT_EQ(player.newest()->rung, Rung::full) << "its bake comes along";
+}
+
 /// With OpenGL, whose shaders these are.
 TEST_F(ShotPlayerTest, ReloadsShadersAndKeepsTheLastGoodOnes) {
   std::filesystem::copy(CATCHLIGHT_SOURCE_DIR "/shaders", folder_.path("shaders"));
@@ -122,12 +150,12 @@ TEST_F(ShotPlayerTest, ReloadsShadersAndKeepsTheLastGoodOnes) {
 
   SceneSettings other = with_shaders.scene;
   set_parameter_from_text(other, "probe.yaw_deg", "30");
-  const std::uint64_t turned = player.wish(other, 0);
+  const std::uint64_t turned = player.ask({.settings = other});
   until([&] { return player.newest()->wish == turned && player.is_idle(); });
   EXPECT_TRUE(player.status().error) << "the message stays while the shader is broken";
 
   folder_.write("shaders/composite.frag", good);
-  player.wish(with_shaders.scene, 0);
+  player.ask({.settings = with_shaders.scene});
   until([&] { return player.is_idle() && !player.status().error; });
   EXPECT_EQ(player.newest()->composite.rgb, before->composite.rgb);
 }
