@@ -108,15 +108,14 @@ void TuneWindow::picture(const std::string& path) {
   write_picture(path, shown_->composite);
 }
 
-void TuneWindow::save(const std::string& path) {
-  if (!history_) return;
-  const std::string to = path.empty() ? scene_file() : path;
+bool TuneWindow::write_scene(const std::string& to) {
   try {
     save_scene_file(scene_file(), to, history_->file(), history_->now());
-    if (path.empty()) history_->mark_saved();
     message_ = "saved " + to;
+    return true;
   } catch (const Error& error) {
     message_ = error.what();
+    return false;
   }
 }
 
@@ -130,6 +129,17 @@ FrameWish TuneWindow::wanted() const {
 bool TuneWindow::is_new(const FrameWish& wish) const {
   return !wished_ || wished_->position != wish.position || wished_->moves != wish.moves || wished_->extras != wish.extras ||
          !costs_of_change(wished_->settings, wish.settings).empty();
+}
+
+void TuneWindow::save(const std::string& path) {
+  if (history_ && write_scene(path.empty() ? scene_file() : path) && path.empty()) history_->mark_saved();
+}
+
+/// What is saved later goes there, too.
+void TuneWindow::save_as(const std::string& path) {
+  if (!write_scene(path)) return;
+  opened_.overrides.scene_file = path;
+  history_->mark_saved();
 }
 
 bool TuneWindow::is_idle() const {
@@ -196,6 +206,8 @@ void TuneWindow::draw_top() {
   if (button("undo", is_open && history_->can_undo(), "ctrl+z")) history_->undo();
   if (button("redo", is_open && history_->can_redo(), "ctrl+y")) history_->redo();
   if (button("save", is_open && !history_->is_saved(), "ctrl+s: writes the scene file, and keeps its comments")) save("");
+  if (is_open)
+    if (const auto file = save_as_.draw(scene_file(), items_)) save_as(*file);
   if (button("keep A", is_open, "shift+a")) history_->keep(0);
   if (button("A", is_open && history_->has(0), "flip to the settings kept as A")) history_->take(0);
   if (button("keep B", is_open, "shift+b")) history_->keep(1);
@@ -255,7 +267,7 @@ void TuneWindow::leave() {
 
 void TuneWindow::draw_side() {
   if (history_ && light_panel_.draw(shown_, hands_.white.is_armed(), *history_, items_)) hands_.white.toggle();
-  if (history_) controls_.draw(*history_, items_);
+  if (history_) controls_.draw(*history_, player_->status(), items_);
   if (!player_) return;
   render_panel_.draw(opened_, *history_, playhead_, shown_ ? shown_->number - shown_->position : 0, items_);
   panels_.draw(shown_, player_->status(), playhead_, items_);

@@ -12,6 +12,7 @@
 #include "app/window/panels/panels.hpp"
 #include "app/window/panels/parameter_controls.hpp"
 #include "app/window/panels/render_panel.hpp"
+#include "app/window/panels/save_as.hpp"
 #include "app/window/picture/picture_hands.hpp"
 #include "app/window/picture/picture_view.hpp"
 #include "app/window/playing/shot_player.hpp"
@@ -67,6 +68,8 @@ class TuneWindow final : public ScriptTarget {
   void leave();
   void take_keys();
   bool button(const char* name, bool is_possible, const char* help);
+  bool write_scene(const std::string& to);
+  void save_as(const std::string& path);
   void draw_top();
   void draw_picture();
   void draw_side();
@@ -96,6 +99,7 @@ class TuneWindow final : public ScriptTarget {
   GuiPace pace_;
   PictureHands hands_;
   LightPanel light_panel_;
+  SaveAs save_as_;
   RenderPanel render_panel_;
   std::string message_, screenshot_;
   bool is_done_ = false, asks_to_leave_ = false, shows_help_ = false;

@@ -11,6 +11,7 @@
 #include "app/window/panels/effect_switches.hpp"
 #include "app/window/surface/window_layout.hpp"
 #include "catchlight/error.hpp"
+#include "catchlight/util/text.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -121,6 +122,24 @@ bool is_as_in(const SceneSettings& file, const SceneSettings& now, const Paramet
   return parameter_text(file, parameter, index) == parameter_text(now, parameter, index);
 }
 
+/// Behind a name, in so much room: a clock where a change takes more than a moment, with what the last one took; bright while
+/// that is being redone.
+void draw_cost(ChangeCost cost, const PlayerStatus& status, float room) {
+  constexpr double kMoment_s = 0.3;
+  const auto took = status.took_s.find(cost);
+  const bool is_known = took != status.took_s.end();
+  if (cost < ChangeCost::light || (is_known && took->second < kMoment_s)) return;
+  const std::string seconds = is_known ? fixed_text(took->second, 1) + " s" : "";
+  for (const std::string& text : {"◔ " + seconds, std::string("◔")}) {
+    const float spacing = ImGui::GetStyle().ItemSpacing.x, width = ImGui::CalcTextSize(text.c_str()).x;
+    if (width + 2 * spacing > room) continue;
+    ImGui::SameLine(0, room - width - spacing);
+    ImGui::TextColored(status.redoing == cost ? ImVec4(0.95f, 0.70f, 0.30f, 1) : ImVec4(0.45f, 0.45f, 0.45f, 1), "%s",
+                       text.c_str());
+    return tooltip("A change redoes more than the frame: " + name_of(cost) + (is_known ? ", the last in " + seconds : "") + ".");
+  }
+}
+
 }  // namespace
 
 /// Brings the file's value back.
@@ -143,7 +162,8 @@ void ParameterControls::draw_reset(const Parameter& parameter, std::size_t index
   tooltip("back to " + text);
 }
 
-void ParameterControls::draw_row(const Parameter& parameter, std::size_t index, SettingsHistory& history, GuiItems& items) {
+void ParameterControls::draw_row(const Parameter& parameter, std::size_t index, SettingsHistory& history,
+                                 const PlayerStatus& status, GuiItems& items) {
   const SceneSettings& now = history.now();
   const std::string name = element_count(now, parameter) < 2 ? parameter.key : element_key(parameter, index);
   ImGui::PushID(name.c_str());
@@ -161,8 +181,11 @@ void ParameterControls::draw_row(const Parameter& parameter, std::size_t index, 
   ImGui::AlignTextToFramePadding();
   ImGui::TextColored(is_changed ? ImVec4(0.95f, 0.70f, 0.30f, 1) : ImVec4(0.80f, 0.80f, 0.80f, 1), "%s",
                      name.substr(name.find('.') + 1).c_str());
+  const float name_width = ImGui::GetItemRectSize().x;
   tooltip(name + "\n" + parameter.help + "\n" + expected_text(parameter) + "\nA change costs: " + name_of(parameter.cost) + ".");
-  ImGui::SameLine(ImGui::GetContentRegionAvail().x * 0.44f);
+  const float column = ImGui::GetContentRegionAvail().x * 0.44f;
+  draw_cost(parameter.cost, status, column - name_width - ImGui::GetStyle().WindowPadding.x);
+  ImGui::SameLine(column);
   ImGui::SetNextItemWidth(is_changed ? -ImGui::GetFrameHeight() - ImGui::GetStyle().ItemSpacing.x : -1);
   if (const Turned turned = draw_value(parameter, now, index, name, items)) change(*turned);
   items.note(name);
@@ -171,7 +194,7 @@ void ParameterControls::draw_row(const Parameter& parameter, std::size_t index, 
   ImGui::PopID();
 }
 
-void ParameterControls::draw(SettingsHistory& history, GuiItems& items) {
+void ParameterControls::draw(SettingsHistory& history, const PlayerStatus& status, GuiItems& items) {
   ImGui::SetNextItemWidth(-1);
   ImGui::InputTextWithHint("##search", "search parameters", &search_);
   items.note("search");
@@ -188,7 +211,7 @@ void ParameterControls::draw(SettingsHistory& history, GuiItems& items) {
     }
     if (!is_open) continue;
     const std::size_t count = element_count(history.now(), parameter);
-    for (std::size_t i = 0; i < count; ++i) draw_row(parameter, i, history, items);
+    for (std::size_t i = 0; i < count; ++i) draw_row(parameter, i, history, status, items);
   }
 }
 

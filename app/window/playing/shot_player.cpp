@@ -84,6 +84,7 @@ void ShotPlayer::finish(std::uint64_t wish, const std::optional<std::string>& er
   finished_ = wish;
   status_.error = error;
   status_.stage.clear();
+  status_.redoing.reset();
   status_.warnings = log_.warnings();
 }
 
@@ -204,10 +205,16 @@ void ShotPlayer::note_time(Rung rung) {
   for (const render::PassTime& pass : session_->renderer().pass_times()) full_ms_ += pass.ms;
 }
 
+void ShotPlayer::note_redoing(const std::set<ChangeCost>& costs) {
+  const std::lock_guard lock(mutex_);
+  status_.redoing = costs.empty() ? std::nullopt : std::optional(*costs.rbegin());
+}
+
 void ShotPlayer::draw(const FrameWish& wish) {
   const auto start = std::chrono::steady_clock::now();
   const std::set<ChangeCost> costs = costs_of_change(session_->settings(), wish.settings);
   if (costs.contains(ChangeCost::track) || costs.contains(ChangeCost::footage)) tracks_anew_ = true;
+  note_redoing(costs);
   const Rung rung = apply(wish);
   session_->seek(wish.position);
   std::optional<FrameJob> job = session_->decode();
@@ -235,10 +242,12 @@ void ShotPlayer::draw(const FrameWish& wish) {
   drawn->pass_times = session_->renderer().pass_times();
   draw_extras(wish.extras, *job, *drawn->image, *drawn);
   drawn->draw_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  const double took_s = drawn->draw_ms / 1000;
   publish(std::move(drawn));
   std::vector<PlanEntry> plan = session_->plan();
   const std::lock_guard lock(mutex_);
   status_.plan = std::move(plan);
+  if (status_.redoing && rung == Rung::full) status_.took_s[*status_.redoing] = took_s;
 }
 
 /// Waits for a wish, or for a file that is saved: the last wish is fulfilled anew then. None where the player is to end.

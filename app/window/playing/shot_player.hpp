@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -17,6 +18,7 @@
 #include "app/session/corner_residuals.hpp"
 #include "app/session/plan.hpp"
 #include "app/session/recording.hpp"
+#include "app/settings/parameter_kinds.hpp"
 #include "app/support/log.hpp"
 #include "app/window/playing/file_watch.hpp"
 #include "app/window/playing/frame_extras.hpp"
@@ -85,6 +87,8 @@ struct PlayerStatus {
   std::int64_t frame_count = 0;  ///< 0 while it is not known
   double frame_rate = 24;
   std::vector<PlanEntry> plan;
+  std::optional<ChangeCost> redoing;                          ///< the dearest part of what is being redone
+  std::map<ChangeCost, double> took_s;                        ///< from the last change of that cost to its picture
   std::shared_ptr<const std::vector<PoseError>> pose_errors;  ///< of all frames, once the shot is tracked
 };
 
@@ -126,6 +130,7 @@ class ShotPlayer {
   RgbPicture truth_of(const Frame& frame) const;
   void show_footage();
   void note_pose_errors();
+  void note_redoing(const std::set<ChangeCost>& costs);
   void publish(std::shared_ptr<const DrawnFrame> frame);
   void finish(std::uint64_t wish, const std::optional<std::string>& error);
 

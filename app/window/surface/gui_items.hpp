@@ -27,7 +27,7 @@ class GuiItems {
     return found == rects_.end() ? std::nullopt : std::optional(found->second);
   }
 
-  std::set<std::string> open_sections{"effects"};  ///< what the window remembers
+  std::set<std::string> open_sections;  ///< what the window remembers
 
  private:
   std::map<std::string, Rect> rects_;

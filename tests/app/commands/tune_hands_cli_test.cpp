@@ -10,7 +10,6 @@ namespace catchlight::tests {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::Not;
 using TuneHands = TunedRecording;
 
 /// Quick to bake: these tests are not about its light.
@@ -57,6 +56,34 @@ TEST_F(TuneHands, WhatTellsNoColourSetsNoBalance) {
                                    "set exposure.mode fixed\nwait\nkey w\nkey escape\ndrag 570 385 570 385\n"
                                    "expect exposure.white_balance 1,1,1\nquit\n");
   EXPECT_EQ(result.exit_code, 0) << result.error;
+}
+
+TEST_F(TuneHands, EffectsGoOffAndComeBackAsTheFileHasThem) {
+  const std::string before = text_of(path("scene.toml"));
+  const CommandResult result =
+      run("wait\nclick effects\nclick effect noise\nexpect lens.noise false\nclick effect receiver\nexpect receiver.plane none\n"
+          "click effect glare\nexpect glare.enabled false\nclick undo\nexpect glare.enabled true\n"
+          "click effect noise\nexpect lens.noise auto\nclick effect receiver\nexpect receiver.plane tag\n"
+          "save\nquit\n");
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  EXPECT_EQ(text_of(path("scene.toml")), before);
+}
+
+TEST_F(TuneHands, SavesUnderAnotherNameAndGoesOnThere) {
+  const std::string before = text_of(path("scene.toml"));
+  const CommandResult result = run("set exposure.ev 1\nclick save as\nclick write\nset exposure.ev 2\nsave\nquit\n");
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  EXPECT_EQ(text_of(path("scene.toml")), before);
+  EXPECT_THAT(text_of(path("scene-2.toml")), HasSubstr("ev = 2\n"));
+}
+
+TEST_F(TuneHands, ReplacesAFileOnlyWhereThatIsSaid) {
+  folder_.write("scene-2.toml", "# mine\n");
+  const CommandResult refused = run("set exposure.ev 1\nclick save as\nclick write\n");
+  EXPECT_THAT(refused.error, HasSubstr("there is no control 'write'"));
+  EXPECT_EQ(text_of(path("scene-2.toml")), "# mine\n");
+  ASSERT_EQ(run("set exposure.ev 1\nclick save as\nclick replace\nquit\n").exit_code, 0);
+  EXPECT_THAT(text_of(path("scene-2.toml")), HasSubstr("ev = 1\n"));
 }
 
 }  // namespace
