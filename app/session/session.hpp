@@ -68,6 +68,8 @@ class Session {
   /// The layers of a frame that render() drew, as compositing packages take them. What is drawn later does not know of it.
   Layers layers(const FrameJob& job) { return renderer_.layers(job); }
 
+  Image light_share(const FrameJob& job, std::optional<std::size_t> light) { return renderer_.light_share(job, light); }
+
   /// Takes a frame that is not to be drawn: the exposure adapts to it as well.
   void skip(FrameJob& job) { renderer_.skip(job); }
 

@@ -7,11 +7,13 @@
 #include "app/settings/look.hpp"
 #include "app/settings/parameters.hpp"
 #include "app/support/progress.hpp"
+#include "catchlight/color.hpp"
 #include "catchlight/error.hpp"
 #include "catchlight/util/file_stamp.hpp"
 #include "render/cpu/cpu_compositor.hpp"
 #include "render/gl_compositor.hpp"
 #include "render/glare/aperture_picture.hpp"
+#include "render/light_shares.hpp"
 #include "render/surface_material.hpp"
 
 namespace catchlight::app {
@@ -90,6 +92,12 @@ void ShotRenderer::restart() {
   adaptation_ = render::ToneAdaptation(settings_.exposure.adapt_bright_s, settings_.exposure.adapt_dark_s);
 }
 
+std::unique_ptr<render::Compositor> ShotRenderer::make_compositor(const render::RenderScene& scene,
+                                                                  const render::CompositorSettings& settings) const {
+  if (context_) return std::make_unique<render::GlCompositor>(scene, settings, shaders_);
+  return std::make_unique<render::CpuCompositor>(scene, settings);
+}
+
 void ShotRenderer::prepare() {
   open_renderer();
   if (is_built_) return;
@@ -98,10 +106,7 @@ void ShotRenderer::prepare() {
   const std::string aperture = file_stamp(wanted.glare.aperture);
   if (!compositor_ || drawn_version_ != built.version || drawn_settings_ != wanted || drawn_aperture_ != aperture) {
     compositor_.reset();
-    if (context_)
-      compositor_ = std::make_unique<render::GlCompositor>(built.scene, wanted, shaders_);
-    else
-      compositor_ = std::make_unique<render::CpuCompositor>(built.scene, wanted);
+    compositor_ = make_compositor(built.scene, wanted);
     drawn_version_ = built.version;
     drawn_settings_ = wanted;
     drawn_aperture_ = aperture;
@@ -113,6 +118,7 @@ std::vector<std::string> ShotRenderer::reload_shaders() {
   auto* drawn_by = dynamic_cast<render::GlCompositor*>(compositor_.get());
   if (!drawn_by) return {};
   context_->make_current();
+  lone_light_.compositor.reset();
   return drawn_by->reload_shaders();
 }
 
@@ -150,6 +156,50 @@ Layers ShotRenderer::layers(const FrameJob& job) {
   if (!job.track.found) return untouched_layers(job.image);
   prepare();
   return *compositor_->render(job.view, reader(job.image), true).layers;
+}
+
+std::span<const render::LightSample> ShotRenderer::samples_of(std::optional<std::size_t> light) const {
+  const std::span<const render::LightSample> all = builder_.scene().scene.lights;
+  const std::vector<render::LightSummary>& lights = builder_.lights();
+  if (!light) return all;
+  if (*light >= lights.size()) return {};
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < *light; ++i) first += lights[i].samples;
+  return all.subspan(first, lights[*light].samples);
+}
+
+/// `light` empty: all of them together.
+render::Compositor& ShotRenderer::compositor_of_light(std::optional<std::size_t> light) {
+  const render::CompositorSettings settings = render::settings_alone(compositor_settings(settings_));
+  LoneLight& lone = lone_light_;
+  if (!lone.compositor || lone.light != light || lone.drawn_version != drawn_version_ || lone.settings != settings) {
+    lone.compositor.reset();
+    lone.compositor = make_compositor(render::lit_alone(builder_.scene().scene, samples_of(light)), settings);
+    lone.light = light, lone.drawn_version = drawn_version_, lone.settings = settings;
+  }
+  return *lone.compositor;
+}
+
+Image ShotRenderer::light_share(const FrameJob& job, std::optional<std::size_t> light) {
+  const auto whole = [&] { return render::light_of(layers(job), glm::dvec3(1.0)); };
+  const std::span<const render::LightSample> samples = samples_of(light);
+  if (!job.track.found || samples.empty()) return light ? Image(job.image.width_px(), job.image.height_px()) : whole();
+  prepare();
+  const glm::dvec3 on_plane = render::plane_share(builder_.scene().scene, samples, job.view.tag_from_light);
+  const Composite lone = compositor_of_light(light).render(render::view_alone(job.view), reader(job.image), true);
+  Image lit = render::light_of(*lone.layers, on_plane);
+  if (light) return lit;
+  Image rest = whole();
+  for (std::size_t i = 0; i < rest.data.size(); ++i) rest.data[i] -= lit.data[i];
+  return rest;
+}
+
+std::vector<double> ShotRenderer::plane_shares(const FrameJob& job) const {
+  std::vector<double> shares;
+  for (std::size_t light = 0; light < builder_.lights().size(); ++light)
+    shares.push_back(
+        glm::dot(kLuminanceWeights, render::plane_share(builder_.scene().scene, samples_of(light), job.view.tag_from_light)));
+  return shares;
 }
 
 void ShotRenderer::skip(FrameJob& job) {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,14 @@ class ShotRenderer {
   /// the footage's own.
   Layers layers(const FrameJob& job);
 
+  /// The light that one of the probe's lights adds to a frame that render() drew, of the brightest first: exposed linear RGB of
+  /// the whole frame, without glare. `light` empty: all that the other shares leave, which is the environment's, with what is
+  /// mirrored of the lights and what materials emit. All shares together are the frame.
+  Image light_share(const FrameJob& job, std::optional<std::size_t> light);
+
+  /// The shares of the lights, brightest first, in the light on the receiver: of its luminance.
+  std::vector<double> plane_shares(const FrameJob& job) const;
+
   /// The exposure adapts to frames that are not drawn, too: it must see every frame of the footage, in order.
   void skip(FrameJob& job);
 
@@ -88,6 +97,10 @@ class ShotRenderer {
   PlanEntry renderer_entry() const;
   PlanEntry reflection_entry() const;
   void draw(FrameJob& job);
+  std::unique_ptr<render::Compositor> make_compositor(const render::RenderScene& scene,
+                                                      const render::CompositorSettings& settings) const;
+  std::span<const render::LightSample> samples_of(std::optional<std::size_t> light) const;
+  render::Compositor& compositor_of_light(std::optional<std::size_t> light);
 
   SceneSettings settings_;
   CameraModel camera_;
@@ -103,6 +116,14 @@ class ShotRenderer {
   std::optional<render::CompositorSettings> drawn_settings_;  ///< the compositor's
   std::string drawn_aperture_;                                ///< the aperture's file as it was read
   std::unique_ptr<render::Compositor> compositor_;
+  /// Draws what some of the lights add; made where that is asked for.
+  struct LoneLight {
+    std::optional<std::size_t> light;
+    int drawn_version = 0;
+    render::CompositorSettings settings;
+    std::unique_ptr<render::Compositor> compositor;
+  };
+  LoneLight lone_light_;
   render::ToneAdaptation adaptation_;
   struct Metered {
     double time_s;

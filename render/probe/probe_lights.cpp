@@ -4,7 +4,7 @@ namespace catchlight::render {
 namespace {
 
 // Raise when the prefilter, the split or their members change: older files then no longer match.
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 
 void archive_map(CacheStream& file, ReflectionMap& map) {
   file.for_each(map.levels, [&](Image& level) {
@@ -27,6 +27,7 @@ void archive_lights(CacheStream& file, ProbeLights& lights) {
     file(light.direction);
     file(light.irradiance);
     file(light.share);
+    file(light.samples);
   });
   archive_map(file, lights.rest_reflections);
 }
@@ -45,7 +46,8 @@ ProbeLights lights_of(const Probe& probe, const glm::dmat3& rotation, const Spli
   const SplitProbe split = split_lights(probe, options);
   result.samples = samples_of(split, rotation);
   for (const ProbeLight& light : split.lights)
-    result.lights.push_back({rotation * light.direction, light.irradiance, light.share / kAverageSurfaces});
+    result.lights.push_back({rotation * light.direction, light.irradiance, light.share / kAverageSurfaces,
+                             static_cast<std::uint32_t>(light.samples.size())});
   if (!result.samples.empty()) result.rest_reflections = prefilter_reflections(split.mirrored, rotation);
   return result;
 }

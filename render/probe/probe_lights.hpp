@@ -15,9 +15,10 @@ namespace catchlight::render {
 
 /// A light that was split off, without its shape.
 struct LightSummary {
-  glm::dvec3 direction;   ///< towards it, length 1
-  glm::dvec3 irradiance;  ///< on a surface that faces it
-  double share = 0;       ///< of all the probe's light
+  glm::dvec3 direction;       ///< towards it, length 1
+  glm::dvec3 irradiance;      ///< on a surface that faces it
+  double share = 0;           ///< of all the probe's light
+  std::uint32_t samples = 0;  ///< how many of the samples are of it
 };
 
 /// What the probe is taken apart into, in the frame that it is turned to.

@@ -80,12 +80,13 @@ void PictureView::take_input(const PicturePlace& place, const glm::vec2& size_px
 FrameExtras PictureView::wanted() const {
   FrameExtras extras;
   if (is_layer(view)) extras.layer = view;
+  if (view == View::light) extras.light = light;
   overlays.add_wanted(extras);
   return extras;
 }
 
 bool PictureView::shows_layer(const DrawnFrame& frame) const {
-  return frame.layer && frame.layer->view == view;
+  return frame.layer && frame.layer->view == view && (view != View::light || frame.layer->light == light);
 }
 
 void PictureView::upload(const DrawnFrame& frame) {

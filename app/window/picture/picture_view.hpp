@@ -16,6 +16,7 @@ class PictureView {
  public:
   View view = View::composite;
   float gain = 8;  ///< of the difference
+  int light = 0;   ///< of View::light: 0 is the environment
   PictureOverlays overlays;
   bool against_truth = false;  ///< the composite is held against the truth instead of the plate, where there is one
 

@@ -5,6 +5,7 @@
 #include "app/window/surface/gui_menu.hpp"
 #include "app/window/surface/window_layout.hpp"
 #include "catchlight/util/enum_names.hpp"
+#include "catchlight/util/text.hpp"
 
 namespace catchlight::app {
 namespace {
@@ -39,10 +40,24 @@ const char* help_of(View view) {
 void draw_entries(PictureView& picture, bool has_truth, GuiItems& items) {
   for (const std::string& name : name_list<View>()) {
     const View view = *value_named<View>(name);
-    if (view == View::truth && !has_truth) continue;
+    if ((view == View::truth && !has_truth) || view == View::light) continue;
     if (view == View::object) ImGui::Separator();
     if (ImGui::MenuItem(name.c_str(), help_of(view), view == picture.view)) picture.view = view;
     items.note("view " + name);
+  }
+}
+
+/// What each light adds, and what else there is.
+void draw_lights(PictureView& picture, const std::vector<double>& shares, GuiItems& items) {
+  ImGui::Separator();
+  double rest = 1;
+  for (const double share : shares) rest -= share;
+  for (int light = 0; light <= static_cast<int>(shares.size()); ++light) {
+    const double share = light == 0 ? rest : shares[static_cast<std::size_t>(light - 1)];
+    const std::string help = fixed_text(100 * share, 1) + " % of the light on the receiver";
+    const bool is_chosen = picture.view == View::light && picture.light == light;
+    if (ImGui::MenuItem(light_name(light).c_str(), help.c_str(), is_chosen)) picture.view = View::light, picture.light = light;
+    items.note("view " + light_name(light));
   }
 }
 
@@ -50,8 +65,9 @@ void draw_entries(PictureView& picture, bool has_truth, GuiItems& items) {
 
 void draw_view_choice(PictureView& picture, const DrawnFrame* frame, GuiItems& items) {
   const bool has_truth = frame && !frame->truth.rgb.empty();
-  if (begin_menu("view: " + name_of(picture.view), "view", items)) {
+  if (begin_menu("view: " + (picture.view == View::light ? light_name(picture.light) : name_of(picture.view)), "view", items)) {
     draw_entries(picture, has_truth, items);
+    if (frame) draw_lights(picture, frame->light_shares, items);
     ImGui::EndPopup();
   }
   picture.overlays.draw_choice(items);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 
 namespace catchlight::app {
 
@@ -19,20 +20,27 @@ enum class View {
   shadow,
   glare,
   normals,
-  depth
+  depth,
+  light  ///< what one light adds, or the environment
 };
 constexpr auto names_of(View) {
   return std::array{"composite", "plate",      "truth",  "split", "flicker", "difference", "zones",
-                    "object",    "reflection", "shadow", "glare", "normals", "depth"};
+                    "object",    "reflection", "shadow", "glare", "normals", "depth",      "light"};
 }
 
 inline bool is_layer(View view) {
   return view >= View::object;
 }
 
+/// "environment", "light 1", ...
+inline std::string light_name(int light) {
+  return light == 0 ? "environment" : "light " + std::to_string(light);
+}
+
 /// What is drawn of a frame beside its composite, which stays the same.
 struct FrameExtras {
   std::optional<View> layer;  ///< one of the layers
+  int light = 0;              ///< of View::light: 0 is the environment, then the lights, brightest first
   bool masks = false;         ///< what the object covers, and where it shadows
   bool corners = false;       ///< the tag's corners as this frame alone shows them
   bool operator==(const FrameExtras&) const = default;

@@ -59,7 +59,7 @@ RgbPicture picture_of(const Image& values, View view, const PlateColor& color) {
 
 LayerPicture picture_of_layer(const Layers& layers, View view, const PlateColor& color) {
   const Image& values = values_of(layers, view);
-  return {view, values, picture_of(values, view, color)};
+  return {view, values, picture_of(values, view, color), 0};
 }
 
 RgbPicture light_picture(const Image& light, const PlateColor& color) {
@@ -120,7 +120,7 @@ std::string layer_text(const LayerPicture& layer, int x, int y) {
   const auto figures = [&](int digits) {
     return fixed_text(value[0], digits) + " " + fixed_text(value[1], digits) + " " + fixed_text(value[2], digits);
   };
-  const std::string name = name_of(layer.view);
+  const std::string name = layer.view == View::light ? light_name(layer.light) : name_of(layer.view);
   if (layer.view == View::depth) {
     const DepthRange range = depth_range(layer.values);
     const std::string ends = " (" + fixed_text(range.near_m, 3) + " white, " + fixed_text(range.far_m, 3) + " dark)";

@@ -16,6 +16,7 @@ struct LayerPicture {
   View view = View::object;
   Image values;
   RgbPicture picture;
+  int light = 0;  ///< of View::light
 };
 
 /// `color`: how the footage codes light; what is light is shown by it.

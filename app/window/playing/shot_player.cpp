@@ -145,9 +145,16 @@ void ShotPlayer::note_pose_errors() {
 /// What is looked at beside the composite, over the plate as it was before that.
 void ShotPlayer::draw_extras(const FrameExtras& extras, const FrameJob& job, const Frame& plate, DrawnFrame& drawn) {
   if (extras.corners) drawn.corners = corner_residuals(plate, job.track, drawn.camera, session_->settings());
-  if (!extras.layer && !extras.masks) return;
-  const Layers layers = session_->layers({.image = plate, .track = job.track, .view = job.view});
-  if (extras.layer) drawn.layer = picture_of_layer(layers, *extras.layer, plate.color());
+  const FrameJob again{.image = plate, .track = job.track, .view = job.view};
+  const bool shows_light = extras.layer == View::light, shows_layer = extras.layer && !shows_light;
+  if (shows_light) {
+    Image share = session_->light_share(again, extras.light > 0 ? std::optional<std::size_t>(extras.light - 1) : std::nullopt);
+    RgbPicture picture = light_picture(share, plate.color());
+    drawn.layer = LayerPicture{View::light, std::move(share), std::move(picture), extras.light};
+  }
+  if (!shows_layer && !extras.masks) return;
+  const Layers layers = session_->layers(again);
+  if (shows_layer) drawn.layer = picture_of_layer(layers, *extras.layer, plate.color());
   if (extras.masks) drawn.masks = masks_of(layers);
 }
 
@@ -239,6 +246,7 @@ void ShotPlayer::draw(const FrameWish& wish) {
   const glm::vec2 foot_m(built.tag_from_scene.translation_m);
   if (grid.columns >= 2) drawn->receiver = {grid.min_m + foot_m, grid.max_m + foot_m};
   drawn->light = light_maker_.light_of(*job, session_->settings(), session_->renderer().builder());
+  if (job->track.found) drawn->light_shares = session_->renderer().plane_shares(*job);
   drawn->pass_times = session_->renderer().pass_times();
   draw_extras(wish.extras, *job, *drawn->image, *drawn);
   drawn->draw_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

@@ -67,6 +67,7 @@ struct DrawnFrame {
   RgbPicture truth;                           ///< empty where the recording has none for the frame
   std::optional<Frame> image, composited;     ///< what both were made of
   std::optional<LayerPicture> layer;          ///< where one was asked for
+  std::vector<double> light_shares;           ///< of the light on the receiver that each of the probe's lights gives
   std::optional<FrameMasks> masks;            ///< as `layer`
   std::vector<CornerResiduals> corners;       ///< as `layer`; of tags that the frame shows
   std::optional<render::PlaneRect> receiver;  ///< where the receiver's shadow is known; none: there is no receiver

@@ -12,7 +12,8 @@
 namespace catchlight::tests {
 namespace {
 
-const std::string kMatte = std::string(CATCHLIGHT_SOURCE_DIR) + "/recordings/matte";
+const std::string kRecordings = std::string(CATCHLIGHT_SOURCE_DIR) + "/recordings/", kMatte = kRecordings + "matte",
+                  kGloss = kRecordings + "gloss";
 
 /// How far two pictures of the window are apart where the footage is shown.
 double difference_in_picture(const std::string& one, const std::string& other) {
@@ -55,6 +56,24 @@ TEST(TuneViews, OverlaysAreSwitchedOnAndOffAndLeaveTheComposite) {
   EXPECT_EQ(difference_in_picture(folder.path("off.png"), folder.path("composite.png")), 0);
   const cv::Mat before = cv::imread(folder.path("before.png")), after = cv::imread(folder.path("after.png"));
   EXPECT_EQ(cv::norm(before, after, cv::NORM_INF), 0);
+}
+
+TEST(TuneViews, EachLightIsSeenAlone) {
+  const TemporaryFolder folder;
+  std::string script =
+      "wait\nseek 5\nwait\nscreenshot " + folder.path("composite.png") + "\npicture " + folder.path("before.png") + "\n";
+  for (const std::string view : {"environment", "light 1", "light 2"})
+    script +=
+        "click view\nclick view " + view + "\nwait\nscreenshot " + folder.path(view.substr(view.size() - 1)) + ".png\nwait\n";
+  script += "picture " + folder.path("after.png") + "\nquit\n";
+  const CommandResult result = run_catchlight({"tune", kGloss, "--headless", "--ui-script", folder.write("lights.txt", script)});
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  const std::string composite = folder.path("composite.png"), environment = folder.path("t.png"), first = folder.path("1.png"),
+                    second = folder.path("2.png");
+  for (const std::string& view : {environment, first, second}) EXPECT_GT(difference_in_picture(view, composite), 10) << view;
+  EXPECT_GT(difference_in_picture(first, second), 1);
+  EXPECT_GT(difference_in_picture(first, environment), 1);
+  EXPECT_EQ(cv::norm(cv::imread(folder.path("before.png")), cv::imread(folder.path("after.png")), cv::NORM_INF), 0);
 }
 
 TEST(TuneViews, AClickIntoThePoseErrorGoesToItsFrame) {
