@@ -3,12 +3,15 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "render/mesh/texture.hpp"
+
 namespace catchlight::render {
 
-/// A material of glTF 2.0's metallic-roughness model. Colours are linear Rec. 709.
+/// A material of glTF 2.0's metallic-roughness model. Colours are linear Rec. 709. Textures multiply the factors.
 struct Material {
   std::string name;
   glm::vec3 base_color{0.8f};
@@ -17,12 +20,28 @@ struct Material {
   float dielectric_f0 = 0.04f;  ///< ((ior-1)/(ior+1))^2 * KHR_materials_specular.specularFactor
   glm::vec3 emissive{0.0f};     ///< radiance
   glm::vec3 unlit_color{0.0f};  ///< times Vertex::color: the exposed linear value that is added, whatever light and exposure are
+  MaterialTexture base_color_texture;          ///< times base_color, or unlit_color
+  MaterialTexture metallic_roughness_texture;  ///< green times roughness, blue times metallic
+  MaterialTexture normal_texture;              ///< tangent space, +y up
+  MaterialTexture occlusion_texture;           ///< red
+  MaterialTexture emissive_texture;            ///< times emissive
+
+  bool has_textures() const {
+    return base_color_texture.is_used() || metallic_roughness_texture.is_used() || normal_texture.is_used() ||
+           occlusion_texture.is_used() || emissive_texture.is_used();
+  }
 };
 
 struct Vertex {
   glm::vec3 position_m;
   glm::vec3 normal;
-  glm::vec3 color{1.0f};  ///< linear, multiplies the material's base colour (vertex colours and base colour textures end up here)
+  glm::vec3 color{1.0f};  ///< linear, multiplies the material's base colour
+};
+
+/// Where a vertex lies in the textures, and which way they run there.
+struct TextureCoordinates {
+  std::array<glm::vec2, 2> uv{};
+  glm::vec4 tangent{0};  ///< along u, length 1; w: 1, or -1 where the normal map's +y is -cross(normal, tangent). 0: not known
 };
 
 /// `triangle_material[i]` is the material of triangle i, indices[3i .. 3i+2]. Faces wind counter-clockwise seen from outside.
@@ -31,13 +50,21 @@ struct Mesh {
   std::vector<std::uint32_t> indices;
   std::vector<std::uint16_t> triangle_material;
   std::vector<Material> materials;
+  std::vector<TextureCoordinates> texture_coordinates;   ///< one a vertex, or none at all
+  std::vector<std::shared_ptr<const Texture>> textures;  ///< of the materials
+
+  bool has_textures() const { return !texture_coordinates.empty(); }
 };
 
-/// Moves positions p to linear part * p + translation; normals by the inverse transpose. `tag_from_object` is 3 rows of 4. Throws
-/// Error where singular.
+/// What lies between two vertices, `share` of the way to the second.
+Vertex between(const Vertex& a, const Vertex& b, float share);
+TextureCoordinates between(const TextureCoordinates& a, const TextureCoordinates& b, float share);
+
+/// Moves positions p to linear part * p + translation; normals by the inverse transpose, tangents by the linear part.
+/// `tag_from_object` is 3 rows of 4. Throws Error where singular.
 Mesh transformed(const Mesh& mesh, const glm::dmat4& tag_from_object);
 
-/// Appends `other`; materials are kept apart.
+/// Appends `other`; materials and textures are kept apart.
 void append(Mesh& mesh, const Mesh& other);
 
 /// What of the mesh lies above z = 0, with the vertices of that only; triangles that cross the plane end on it.

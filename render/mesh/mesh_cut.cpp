@@ -9,7 +9,10 @@ namespace {
 /// The half of a mesh that lies above z = 0.
 class UpperHalf {
  public:
-  explicit UpperHalf(const Mesh& whole) : whole_(whole) { half_.materials = whole.materials; }
+  explicit UpperHalf(const Mesh& whole) : whole_(whole) {
+    half_.materials = whole.materials;
+    half_.textures = whole.textures;
+  }
 
   Mesh run() {
     for (std::size_t t = 0; t < whole_.triangle_material.size(); ++t) add_triangle(t);
@@ -37,6 +40,7 @@ class UpperHalf {
   std::uint32_t kept(std::uint32_t vertex) {
     const auto [found, is_new] = made_.try_emplace(std::uint64_t{vertex} << 32 | vertex, half_.vertices.size());
     if (is_new) half_.vertices.push_back(whole_.vertices[vertex]);
+    if (is_new && whole_.has_textures()) half_.texture_coordinates.push_back(whole_.texture_coordinates[vertex]);
     return found->second;
   }
 
@@ -46,10 +50,10 @@ class UpperHalf {
     if (!is_new) return found->second;
     const Vertex &from = whole_.vertices[below], &to = whole_.vertices[above];
     const float share = from.position_m.z / (from.position_m.z - to.position_m.z);
-    const glm::vec3 place_m = glm::mix(from.position_m, to.position_m, share), normal = glm::mix(from.normal, to.normal, share);
-    const bool cancels = glm::length(normal) < 1e-6f;
-    half_.vertices.push_back(
-        {{place_m.x, place_m.y, 0.0f}, cancels ? to.normal : glm::normalize(normal), glm::mix(from.color, to.color, share)});
+    half_.vertices.push_back(between(from, to, share));
+    half_.vertices.back().position_m.z = 0;
+    const std::vector<TextureCoordinates>& places = whole_.texture_coordinates;
+    if (!places.empty()) half_.texture_coordinates.push_back(between(places[below], places[above], share));
     return found->second;
   }
 

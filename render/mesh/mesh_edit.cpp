@@ -37,11 +37,11 @@ class Midpoints {
     const std::uint64_t key = (std::uint64_t{std::min(a, b)} << 32) | std::max(a, b);
     const auto [found, is_new] = made_.try_emplace(key, static_cast<std::uint32_t>(mesh_.vertices.size()));
     if (is_new) {
-      const Vertex one = mesh_.vertices[a], other = mesh_.vertices[b];
-      const glm::vec3 normal = one.normal + other.normal;
-      const bool cancels = glm::length(normal) < 1e-6f;
-      mesh_.vertices.push_back({(one.position_m + other.position_m) * 0.5f, cancels ? one.normal : glm::normalize(normal),
-                                (one.color + other.color) * 0.5f});
+      Vertex middle = render::between(mesh_.vertices[a], mesh_.vertices[b], 0.5f);
+      middle.position_m = (mesh_.vertices[a].position_m + mesh_.vertices[b].position_m) * 0.5f;
+      mesh_.vertices.push_back(middle);
+      std::vector<TextureCoordinates>& places = mesh_.texture_coordinates;
+      if (!places.empty()) places.push_back(render::between(places[a], places[b], 0.5f));
     }
     return found->second;
   }
@@ -124,6 +124,22 @@ std::size_t long_edge_count(const Mesh& mesh, double max_edge_m) {
 
 }  // namespace
 
+Vertex between(const Vertex& a, const Vertex& b, float share) {
+  const glm::vec3 normal = glm::mix(a.normal, b.normal, share);
+  const bool cancels = glm::length(normal) < 1e-6f;
+  return {glm::mix(a.position_m, b.position_m, share), cancels ? (share > 0.5f ? b.normal : a.normal) : glm::normalize(normal),
+          glm::mix(a.color, b.color, share)};
+}
+
+TextureCoordinates between(const TextureCoordinates& a, const TextureCoordinates& b, float share) {
+  TextureCoordinates result;
+  for (std::size_t set = 0; set < 2; ++set) result.uv[set] = glm::mix(a.uv[set], b.uv[set], share);
+  const glm::vec3 tangent = glm::mix(glm::vec3(a.tangent), glm::vec3(b.tangent), share);
+  const bool cancels = glm::length(tangent) < 1e-6f;
+  result.tangent = glm::vec4(cancels ? glm::vec3(a.tangent) : glm::normalize(tangent), a.tangent.w);
+  return result;
+}
+
 Mesh transformed(const Mesh& mesh, const glm::dmat4& tag_from_object) {
   const glm::dmat3 linear(tag_from_object);
   const double scale = std::cbrt(std::abs(glm::determinant(linear))),
@@ -138,8 +154,15 @@ Mesh transformed(const Mesh& mesh, const glm::dmat4& tag_from_object) {
     vertex.position_m = glm::vec3(linear * glm::dvec3(vertex.position_m) + glm::dvec3(tag_from_object[3]));
     vertex.normal = glm::vec3(glm::normalize(normal_matrix * glm::dvec3(vertex.normal)));
   }
+  const bool is_mirrored = glm::determinant(linear) < 0;
+  for (TextureCoordinates& place : result.texture_coordinates) {
+    const glm::dvec3 tangent = linear * glm::dvec3(place.tangent);
+    const double length = glm::length(tangent);
+    place.tangent =
+        glm::vec4(length > 0 ? glm::vec3(tangent / length) : glm::vec3(0), is_mirrored ? -place.tangent.w : place.tangent.w);
+  }
   // A mirror image turns faces inside out: wind them the other way.
-  if (glm::determinant(linear) < 0) {
+  if (is_mirrored) {
     for (std::size_t i = 0; i < result.indices.size(); i += 3) std::swap(result.indices[i + 1], result.indices[i + 2]);
   }
   return result;
@@ -153,7 +176,18 @@ void append(Mesh& mesh, const Mesh& other) {
   for (const std::uint16_t material : other.triangle_material) {
     mesh.triangle_material.push_back(static_cast<std::uint16_t>(first_material + material));
   }
-  mesh.materials.insert(mesh.materials.end(), other.materials.begin(), other.materials.end());
+  for (Material material : other.materials) {
+    for (MaterialTexture* use : {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
+                                 &material.occlusion_texture, &material.emissive_texture})
+      if (use->is_used()) use->texture += static_cast<int>(mesh.textures.size());
+    mesh.materials.push_back(std::move(material));
+  }
+  mesh.textures.insert(mesh.textures.end(), other.textures.begin(), other.textures.end());
+  if (!mesh.has_textures() && !other.has_textures()) return;
+  mesh.texture_coordinates.resize(base);
+  mesh.texture_coordinates.insert(mesh.texture_coordinates.end(), other.texture_coordinates.begin(),
+                                  other.texture_coordinates.end());
+  mesh.texture_coordinates.resize(mesh.vertices.size());
 }
 
 void subdivide_long_edges(Mesh& mesh, double max_edge_m, std::size_t max_vertices) {

@@ -132,6 +132,7 @@ class VertexCopies {
     if (is_new && is_taken_[index]) {
       found->second = static_cast<std::uint32_t>(mesh_.vertices.size());
       mesh_.vertices.push_back(mesh_.vertices[index]);
+      if (mesh_.has_textures()) mesh_.texture_coordinates.push_back(mesh_.texture_coordinates[index]);
     }
     if (is_new) {
       is_taken_[index] = true;
