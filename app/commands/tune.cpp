@@ -37,7 +37,7 @@ void run_without_person(const Options& options, TuneWindow& window, GuiSurface& 
     window.frame();
     const bool is_over = script ? script->is_done() : frame + 1 >= std::max(options.frames, 1);
     if (is_over && window.is_idle()) return;
-    if (!window.is_idle()) surface.rest(1.0 / 60);  // the player needs the cores
+    if (!window.is_idle() || (script && script->is_waiting())) surface.rest(1.0 / 60);  // the player needs the cores
   }
 }
 

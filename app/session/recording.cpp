@@ -82,7 +82,7 @@ Recording open_folder(const std::string& location) {
 }
 
 Recording open_bare_footage(const std::string& location) {
-  const bool is_plain_path = location != "-" && location.find("://") == std::string::npos && !names_sequence(location);
+  const bool is_plain_path = !is_one_pass(location) && !names_sequence(location);
   if (is_plain_path && !fs::exists(location))
     throw Error(location +
                 ": no such file or folder; expected a recording's folder, a video, a %04d pattern, a camera, a stream's address "
@@ -184,12 +184,12 @@ std::vector<std::string> files_of(const Recording& recording) {
   return files;
 }
 
-std::unique_ptr<MediaSource> open_footage(const Recording& recording, const WarningHandler& warn) {
+std::unique_ptr<MediaSource> open_footage(const Recording& recording, const WarningHandler& warn, SourceHooks hooks) {
   const auto known = [&]() -> std::shared_ptr<const CameraResponse> {
     const auto response = load_response(word_or_path(recording.scene, "exposure.response"), warn);
     return response ? std::make_shared<CameraResponse>(*response) : nullptr;
   };
-  return MediaSource::open(recording.footage, recording.fps, known());
+  return MediaSource::open(recording.footage, recording.fps, known(), std::move(hooks));
 }
 
 CameraModel camera_for_footage(const Recording& recording, int width_px, int height_px, const WarningHandler& warn) {

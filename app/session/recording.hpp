@@ -48,7 +48,7 @@ std::vector<std::string> files_of(const Recording& recording);
 
 /// The footage, read with the camera's response where the scene names one. Throws Error as MediaSource::open and load_response
 /// do.
-std::unique_ptr<MediaSource> open_footage(const Recording& recording, const WarningHandler& warn = {});
+std::unique_ptr<MediaSource> open_footage(const Recording& recording, const WarningHandler& warn = {}, SourceHooks hooks = {});
 
 /// The camera of a recording whose footage turned out to be of this size: as tracking::read_camera_file_for() where there is a
 /// camera file.

@@ -117,6 +117,11 @@ std::optional<FrameJob> Session::decode() {
   return std::nullopt;
 }
 
+std::optional<std::int64_t> Session::frame_count() {
+  opened_track();
+  return tracked_frames_ ? tracked_frames_ : footage_->info().frame_count;
+}
+
 void Session::seek(std::int64_t position) {
   FrameTrack& track = opened_track();
   if (renderer_.adapts() && !footage_->info().is_one_pass)
@@ -190,12 +195,14 @@ std::unique_ptr<FrameTrack> Session::open_track() {
   footage_->keep(frames_to_track(footage_->info(), options_.range));
   SolvedShot solved = solve();
   footage_->rewind();
+  tracked_frames_ = static_cast<std::int64_t>(solved.rows.size());
   return make_recorded_track(std::move(solved.rows), camera_, scene);
 }
 
 SolvedShot Session::solve() {
   SolvedShot solved = solve_shot(*footage_, camera_, recording_.scene, options_.range, log_, pass_.report.stages);
-  if (solved.never_found && solved.damage) log_.warn(*solved.damage);
+  if ((solved.never_found || options_.is_revisited) && solved.damage) log_.warn(*solved.damage);
+  if (options_.is_revisited) pass_.damage = solved.damage;
   if (solved.never_found) note_never_found(*solved.never_found);
   if (!solved.is_whole)
     log_.info(
@@ -213,7 +220,8 @@ void Session::note_never_found(const std::string& text) {
 std::unique_ptr<RewindableSource> Session::open_source(const Recording& recording) {
   const Waiting waiting(log_, shown(recording.footage));
   return std::make_unique<RewindableSource>(
-      open_footage(recording, log_.warning_handler()), [this] { return open_footage(recording_); }, options_.kept_bytes);
+      open_footage(recording, log_.warning_handler(), options_.hooks),
+      [this] { return open_footage(recording_, {}, options_.hooks); }, options_.kept_bytes);
 }
 
 void Session::track_range(const std::function<void(const TrackRow&)>& take) {
@@ -261,7 +269,7 @@ void Session::apply(const SceneSettings& settings, BakeFineness fineness) {
   }
   recording_ = std::move(changed);
   renderer_.apply(settings, fineness);
-  if (is_tracked_anew) track_.reset(), never_found_.reset();
+  if (is_tracked_anew) track_.reset(), tracked_frames_.reset(), never_found_.reset();
 }
 
 void Session::warn_of_track() {

@@ -34,6 +34,7 @@ struct SessionOptions {
   bool allows_lost = true;      ///< footage in which the tag is never found is not refused, nor a failure
   bool is_revisited = false;    ///< seek() is wanted: frames stay in memory, as far as they fit
   bool keeps_track = false;     ///< track_rows() is wanted: they grow with the footage
+  SourceHooks hooks = {};       ///< of the footage
   std::int64_t kept_bytes = kept_frames_budget();  ///< of frames that are kept from tracking, so that they are decoded once
 };
 
@@ -55,6 +56,10 @@ class Session {
   /// The next frame; none at the end of the range or of the footage, or where the footage is damaged.
   /// Throws where not one frame lies in the range.
   std::optional<FrameJob> decode();
+
+  /// How many frames decode() will give: those that were tracked, where recorded footage is tracked as a whole (it may be shorter
+  /// than it says), else what the footage says, if anything.
+  std::optional<std::int64_t> frame_count();
 
   /// decode() goes on at that position among the footage's frames, from 0; where that is beyond the end, there is none. Of
   /// recorded footage, where options.is_revisited. An exposure that adapts has seen all frames before that one then.
@@ -163,8 +168,9 @@ class Session {
   CameraModel camera_;
   std::unique_ptr<FrameTrack> track_;  ///< null until it is first needed
   ShotRenderer renderer_;
-  std::optional<TrackCheck> track_check_;   ///< where there is a track file
-  std::optional<std::string> never_found_;  ///< what to say where the tag is in no frame
+  std::optional<TrackCheck> track_check_;       ///< where there is a track file
+  std::optional<std::int64_t> tracked_frames_;  ///< where the footage was tracked as a whole
+  std::optional<std::string> never_found_;      ///< what to say where the tag is in no frame
   std::optional<Progress> progress_;
   std::atomic<double> delay_s_ = 0;  ///< from decoding the last frame that is finished to that
   Pass pass_;

@@ -77,6 +77,7 @@ void TuneWindow::open(const OpenedRecording& wanted) {
   shown_ = nullptr;
   wished_.reset();
   player_ = std::make_unique<ShotPlayer>(std::move(recording), [&surface = surface_] { surface.wake(); });
+  if (is_live()) playhead_.toggle();
   surface_.set_title(recording_->name + " – Catchlight");
 }
 
@@ -95,10 +96,13 @@ void TuneWindow::set(const std::string& key, const std::string& text) {
 }
 
 std::string TuneWindow::value_of(const std::string& key) const {
-  if (key == "frame") return std::to_string(playhead_.position());
-  if (key == "message") return message_;
   if (key == "stage") return player_ ? player_->status().stage : "";
   if (key == "error") return player_ ? player_->status().error.value_or("none") : "none";
+  if (key == "frame") return std::to_string(is_live() && shown_ ? shown_->number : playhead_.position());
+  if (key == "message") return message();
+  if (key == "tag") return shown_ && shown_->track.found ? "found" : "lost";
+  if (is_live())
+    if (const auto value = live_panel_.value_of(key, player_->live()->status())) return *value;
   const Parameter* parameter = find_parameter(key);
   return parameter && history_ ? parameter_text(history_->now(), *parameter) : "unknown";
 }
@@ -143,8 +147,9 @@ void TuneWindow::save_as(const std::string& path) {
 }
 
 bool TuneWindow::is_idle() const {
-  const bool is_shown = !player_ || (!is_new(wanted()) && player_->is_idle() && shown_ == player_->newest());
-  return is_shown && screenshot_.empty() && !playhead_.is_playing();
+  const bool is_still = is_live() || (player_ && shown_ == player_->newest() && !playhead_.is_playing());
+  const bool is_shown = !player_ || (!is_new(wanted()) && player_->is_idle() && is_still);
+  return is_shown && screenshot_.empty();
 }
 
 double TuneWindow::rest_s() {
@@ -269,7 +274,7 @@ void TuneWindow::draw_side() {
   if (history_ && light_panel_.draw(shown_, hands_.white.is_armed(), *history_, items_)) hands_.white.toggle();
   if (history_) controls_.draw(*history_, player_->status(), items_);
   if (!player_) return;
-  render_panel_.draw(opened_, *history_, playhead_, shown_ ? shown_->number - shown_->position : 0, items_);
+  if (!is_live()) render_panel_.draw(opened_, *history_, playhead_, shown_ ? shown_->number - shown_->position : 0, items_);
   panels_.draw(shown_, player_->status(), playhead_, items_);
 }
 
@@ -282,7 +287,7 @@ void TuneWindow::draw_progress() {
   std::string text = shown_->wish == 0 ? "the footage alone"
                                        : name_of(shown_->rung) + ", " + std::to_string(static_cast<int>(shown_->draw_ms)) + " ms";
   if (shown_->wish != 0 && !shown_->track.found) text += "; no tag in this frame";
-  if (!player_->is_idle()) text += "; drawing …";
+  if (!player_->is_idle() && !is_live()) text += "; drawing …";
   ImGui::TextUnformatted(text.c_str());
 }
 
@@ -291,13 +296,17 @@ void TuneWindow::draw_status() {
   ImGui::SameLine();
   ImGui::TextDisabled("%s", picture_view_.pixel_text().c_str());
   ImGui::SameLine();
-  ImGui::TextUnformatted(message_.c_str());
-  tooltip(message_);
+  ImGui::TextUnformatted(message().c_str());
+  tooltip(message());
 }
 
 void TuneWindow::draw_bottom() {
   if (!player_) return ImGui::TextWrapped("%s", message_.c_str());
-  draw_transport(playhead_, shown_ ? shown_->number : 0, shown_ ? shown_->time_s : 0, items_);
+  if (is_live()) {
+    const std::string problem = live_panel_.draw(*player_->live(), recording_->footage, *history_, playhead_, items_);
+    if (!problem.empty()) message_ = problem;
+  } else
+    draw_transport(playhead_, shown_ ? shown_->number : 0, shown_ ? shown_->time_s : 0, items_);
   draw_status();
 }
 
@@ -321,6 +330,10 @@ void TuneWindow::draw_questions() {
   if (choice("stay")) asks_to_leave_ = false;
   if (!asks_to_leave_) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
+}
+
+std::string TuneWindow::message() const {
+  return message_.empty() && player_ ? player_->status().damage.value_or("") : message_;
 }
 
 void TuneWindow::take_screenshot() {
@@ -353,6 +366,7 @@ void TuneWindow::frame() {
   layout_.end_bottom();
   draw_questions();
   surface_.end_frame();
+  if (shown_) live_panel_.note_shown(*shown_);
   take_screenshot();
   if (!surface_.is_closed()) return;
   surface_.keep_open();

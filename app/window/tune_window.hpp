@@ -9,6 +9,7 @@
 #include "app/session/recording.hpp"
 #include "app/window/editing/settings_history.hpp"
 #include "app/window/panels/light_panel.hpp"
+#include "app/window/panels/live_panel.hpp"
 #include "app/window/panels/panels.hpp"
 #include "app/window/panels/parameter_controls.hpp"
 #include "app/window/panels/render_panel.hpp"
@@ -66,6 +67,8 @@ class TuneWindow final : public ScriptTarget {
   void open(const OpenedRecording& wanted);
   void leave_for(std::optional<OpenedRecording> next);
   void leave();
+  bool is_live() const { return player_ && player_->live(); }
+  std::string message() const;
   void take_keys();
   bool button(const char* name, bool is_possible, const char* help);
   bool write_scene(const std::string& to);
@@ -101,6 +104,7 @@ class TuneWindow final : public ScriptTarget {
   LightPanel light_panel_;
   SaveAs save_as_;
   RenderPanel render_panel_;
+  LivePanel live_panel_;
   std::string message_, screenshot_;
   bool is_done_ = false, asks_to_leave_ = false, shows_help_ = false;
 };

@@ -27,12 +27,13 @@ constexpr std::array kVerbs{
     Verb{"wheel", 2, "wheel CONTROL STEPS"},
     Verb{"type", 1, "type TEXT"},
     Verb{"key", 1, "key NAME, ctrl+NAME, ctrl+shift+NAME"},
-    Verb{"wait", 0, "wait: until everything asked for is shown; wait STAGE: until that has begun"},
+    Verb{"wait", 0,
+         "wait: until everything asked for is shown; wait STAGE: until that has begun; wait KEY VALUE: until expect holds"},
     Verb{"hold", 1, "hold NAME (a key, shift, ctrl, alt)"},
     Verb{"release", 0, "release"},
     Verb{"screenshot", 1, "screenshot FILE"},
     Verb{"picture", 1, "picture FILE"},
-    Verb{"expect", 2, "expect KEY VALUE"},
+    Verb{"expect", 2, "expect KEY VALUE, KEY < NUMBER, KEY > NUMBER"},
     Verb{"save", 0, "save [FILE]"},
     Verb{"quit", 0, "quit"},
 };
@@ -135,8 +136,23 @@ void UiScript::begin(ScriptTarget& target, const ScriptCommand& command) {
   if (verb == "key") return press(command);
   if (verb == "hold") return hold(command);
   if (verb == "release") return release();
-  if (verb == "expect" && target.value_of(words[0]) != after(command, 1))
+  if (verb == "expect" && !holds(target, command))
     fail(command, words[0] + " is " + target.value_of(words[0]) + ", expected " + after(command, 1));
+}
+
+/// Whether what the command names has the value that it says.
+bool UiScript::holds(const ScriptTarget& target, const ScriptCommand& command) const {
+  const std::string value = target.value_of(command.words[0]), wanted = after(command, 1);
+  const bool is_less = wanted.starts_with("< "), is_more = wanted.starts_with("> ");
+  if (!is_less && !is_more) return value == wanted;
+  const auto number = real_from_text(value), limit = real_from_text(wanted.substr(2));
+  return number && limit && (is_less ? *number < *limit : *number > *limit);
+}
+
+/// Whether there is what `wait` waits for.
+bool UiScript::is_reached(const ScriptTarget& target, const ScriptCommand& command) const {
+  if (command.words.size() > 1) return holds(target, command);
+  return target.is_idle() || (!command.words.empty() && target.value_of("stage") == command.words[0]);
 }
 
 void UiScript::turn_wheel(const ImVec2& at, float steps) {
@@ -196,8 +212,7 @@ void UiScript::before_frame(ScriptTarget& target) {
   }
   if (next_ == commands_.size()) return;
   const ScriptCommand& command = commands_[next_];
-  if (command.verb == "wait" && !target.is_idle() && (command.words.empty() || target.value_of("stage") != command.words[0]))
-    return;
+  if (command.verb == "wait" && !is_reached(target, command)) return;
   ++next_;
   begin(target, command);
 }

@@ -50,11 +50,15 @@ class UiScript {
   /// Before a frame of the window begins: writes the input into ImGui's IO. Throws Error "FILE:LINE: ..." where a control is not
   /// there, or something expected is otherwise.
   void before_frame(ScriptTarget& target);
+  /// Whether it waits for what the window is to show.
+  bool is_waiting() const { return gestures_.empty() && next_ < commands_.size() && commands_[next_].verb == "wait"; }
   bool is_done() const { return next_ == commands_.size() && gestures_.empty(); }
 
  private:
   using Gesture = std::function<void(ImGuiIO&)>;
   void begin(ScriptTarget& target, const ScriptCommand& command);
+  bool is_reached(const ScriptTarget& target, const ScriptCommand& command) const;
+  bool holds(const ScriptTarget& target, const ScriptCommand& command) const;
   float number(const ScriptCommand& command, std::size_t word) const;
   GuiItems::Rect rect_of(const ScriptTarget& target, const ScriptCommand& command, const std::string& control) const;
   ImVec2 middle_of(const ScriptTarget& target, const ScriptCommand& command, const std::string& control) const;

@@ -28,6 +28,15 @@ class BoundedQueue {
     return true;
   }
 
+  /// As push(), but never waits: false where the queue is full, too.
+  bool offer(Item item) {
+    const std::lock_guard lock(mutex_);
+    if (is_closed_ || items_.size() >= length_) return false;
+    items_.push_back(std::move(item));
+    changed_.notify_all();
+    return true;
+  }
+
   /// Waits while the queue is full. False where nobody takes items any more.
   bool wait_for_room() {
     std::unique_lock lock(mutex_);

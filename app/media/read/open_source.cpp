@@ -23,8 +23,19 @@ bool is_address(const std::string& location) {
   return location.find("://") != std::string::npos;
 }
 
+constexpr std::string_view kCameraName = "camera:";
+
 bool is_camera(const std::string& location) {
-  return location.starts_with("/dev/video");
+  return location.starts_with("/dev/video") || location.starts_with(kCameraName);
+}
+
+/// "/dev/video0" for "camera:0".
+std::string device_of(const std::string& camera) {
+  if (!camera.starts_with(kCameraName)) return camera;
+  const std::string number = camera.substr(kCameraName.size());
+  if (number.empty() || number.find_first_not_of("0123456789") != std::string::npos)
+    throw UsageError("'" + camera + "': expected the camera's number, as in camera:0 for /dev/video0");
+  return "/dev/video" + number;
 }
 
 constexpr double kUsualSequenceFps = 24;
@@ -44,7 +55,7 @@ SourceRequest sequence_request(const std::string& location, const SequencePatter
                 "') is missing between " + std::to_string(numbers.front()) + " and " + std::to_string(numbers.back()));
   }
   if (fps && !(*fps > 0)) throw UsageError("--fps: the frame rate of '" + location + "' must be above 0");
-  SourceRequest request{location, "file:" + pattern.printf_path(), "image2", {}, {}, {}};
+  SourceRequest request{location, "file:" + pattern.printf_path(), "image2", {}, {}, {}, {}};
   request.options = {{"pattern_type", "sequence"}, {"start_number", std::to_string(numbers.front())}};
   request.options.push_back(frame_rate_option(av_d2q(fps.value_or(kUsualSequenceFps), kMaxRateTerm)));
   request.info.is_sequence = true;
@@ -59,17 +70,17 @@ SourceRequest file_request(const std::string& location) {
     throw Error("'" + location + "' is a folder; name a video in it, or its pictures as in '" + location + "/%04d.png'");
   }
   // With the protocol named, a colon in a file's name stays part of the name.
-  return {location, "file:" + location, "", {}, {}, {}};
+  return {location, "file:" + location, "", {}, {}, {}, {}};
 }
 
 SourceRequest stdin_request() {
   if (isatty(STDIN_FILENO) != 0)
     throw UsageError("'-' is stdin, and nothing is piped into it; as in `ffmpeg -i clip.mp4 -f yuv4mpegpipe - | catchlight ...`");
-  return {"stdin", "pipe:0", "", {}, {}, {}};
+  return {"stdin", "pipe:0", "", {}, {}, {}, {}};
 }
 
-SourceRequest live_request(const std::string& location, const std::string& input_format) {
-  SourceRequest request{location, location, input_format, {}, {}, {}};
+SourceRequest live_request(const std::string& location, const std::string& url, const std::string& input_format) {
+  SourceRequest request{location, url, input_format, {}, {}, {}, {}};
   request.info.is_live = true;
   return request;
 }
@@ -77,12 +88,12 @@ SourceRequest live_request(const std::string& location, const std::string& input
 SourceRequest camera_request(const std::string& location) {
   static const LateLibrary devices("libavdevice.so." AV_STRINGIFY(LIBAVDEVICE_VERSION_MAJOR));
   devices.function<decltype(&avdevice_register_all)>("avdevice_register_all")();
-  return live_request(location, "v4l2");
+  return live_request(location, device_of(location), "v4l2");
 }
 
 SourceRequest request_of(const std::string& location, std::optional<double> sequence_fps) {
   if (location == "-") return stdin_request();
-  if (is_address(location)) return live_request(location, "");
+  if (is_address(location)) return live_request(location, location, "");
   if (is_camera(location)) return camera_request(location);
   return names_sequence(location) ? sequence_request(location, *SequencePattern::parse(location), sequence_fps)
                                   : file_request(location);
@@ -99,12 +110,13 @@ bool is_one_pass(const std::string& location) {
 }
 
 std::unique_ptr<MediaSource> MediaSource::open(const std::string& location, std::optional<double> sequence_fps,
-                                               std::shared_ptr<const CameraResponse> response) {
+                                               std::shared_ptr<const CameraResponse> response, SourceHooks hooks) {
   capture_ffmpeg_log();
   if (location.empty())
     throw UsageError("no footage named: a file, a pattern such as 'plate/%04d.png', a camera or an address is wanted");
   SourceRequest request = request_of(location, sequence_fps);
   request.response = std::move(response);
+  request.hooks = std::move(hooks);
   request.info.is_one_pass = is_one_pass(location);
   const bool is_sequence = request.info.is_sequence;
   if (sequence_fps && !is_sequence) throw UsageError("--fps is for image sequences; '" + location + "' says its own frame rate");

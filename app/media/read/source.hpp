@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 
 #include "app/media/pixels/frame.hpp"
@@ -28,6 +30,13 @@ struct SourceInfo {
   std::string codec, pixel_format;
 };
 
+/// What the owner of a source wants to have a say in while it waits and decodes.
+struct SourceHooks {
+  std::stop_token stop;                       ///< ends all waiting for data, while the source is opened as well
+  std::function<void(const Frame&)> decoded;  ///< sees each frame as it is decoded, on the thread that does so; of live footage
+                                              ///< those too that are left out for newer ones
+};
+
 /// Whether what is there can be read once only: a camera, an address or stdin.
 bool is_one_pass(const std::string& location);
 
@@ -42,13 +51,13 @@ struct DamagedMedia : Error {
 /// Decodes strictly in order; never seeks.
 class MediaSource {
  public:
-  /// `location`: a file, a `%04d` or `####` pattern (from any number), `/dev/video0`, an address (`rtsp://`, `http://`, ...), or
-  /// `-` for stdin. `sequence_fps`: how fast image files follow each other; without, EXR's framesPerSecond says so, else it
-  /// is 24. Throws Error: no such file, no video stream in it, a gap in a sequence (number named); DamagedMedia: not even one
-  /// frame can be decoded. UsageError: `sequence_fps` for what is no sequence, or not above 0. `response` is the camera's, where
-  /// the stream does not say it.
+  /// `location`: a file, a `%04d` or `####` pattern (from any number), a camera (`camera:0` or `/dev/video0`), an address
+  /// (`rtsp://`, `http://`, ...), or `-` for stdin. `sequence_fps`: how fast image files follow each other; without, EXR's
+  /// framesPerSecond says so, else it is 24. Throws Error: no such file, no video stream in it, a gap in a sequence (number
+  /// named); DamagedMedia: not even one frame can be decoded. UsageError: `sequence_fps` for what is no sequence, or not above 0.
+  /// `response` is the camera's, where the stream does not say it.
   static std::unique_ptr<MediaSource> open(const std::string& location, std::optional<double> sequence_fps = {},
-                                           std::shared_ptr<const CameraResponse> response = {});
+                                           std::shared_ptr<const CameraResponse> response = {}, SourceHooks hooks = {});
   virtual ~MediaSource() = default;
 
   virtual const SourceInfo& info() const = 0;

@@ -72,8 +72,7 @@ void VideoSource::open_input() {
   for (const auto& [key, value] : request_.options) options.set(key, value);
   const AVInputFormat* format = request_.input_format.empty() ? nullptr : av_find_input_format(request_.input_format.c_str());
   AVFormatContext* input = allocated(avformat_alloc_context());
-  input->interrupt_callback = {[](void* stopped) { return static_cast<std::atomic<bool>*>(stopped)->load() ? 1 : 0; },
-                               &is_stopped_};
+  input->interrupt_callback = {[](void* source) { return static_cast<VideoSource*>(source)->is_given_up() ? 1 : 0; }, this};
   const int opened = avformat_open_input(&input, request_.url.c_str(), format, options.get());
   if (opened == AVERROR_INVALIDDATA) {
     throw Error(about() + " is no video that FFmpeg can read, or its header is missing because the file was cut short (" +
@@ -300,8 +299,10 @@ Frame VideoSource::finish_frame(FramePtr picture) {
     picture->color_trc = AVCOL_TRC_LINEAR;
   check_shape(*picture);
   const double time_s = static_cast<double>(picture->pts - first_pts_) * av_q2d(stream_->time_base);
-  return {std::shared_ptr<const AVFrame>(std::move(picture)), request_.info.first_number + delivered_++, time_s,
-          request_.response};
+  Frame frame(std::shared_ptr<const AVFrame>(std::move(picture)), request_.info.first_number + delivered_++, time_s,
+              request_.response);
+  if (request_.hooks.decoded) request_.hooks.decoded(frame);
+  return frame;
 }
 
 }  // namespace catchlight::app

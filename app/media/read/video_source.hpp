@@ -18,6 +18,7 @@ struct SourceRequest {
   std::vector<std::pair<std::string, std::string>> options;
   SourceInfo info;  ///< frame_count, first_number, is_sequence of a sequence; is_live, is_one_pass
   std::shared_ptr<const CameraResponse> response;
+  SourceHooks hooks;
 };
 
 class VideoSource final : public MediaSource {
@@ -31,6 +32,7 @@ class VideoSource final : public MediaSource {
   /// The frame rate that a picture declares of itself, as EXR's may; 0/1 where none does.
   AVRational declared_rate() const { return decoder_->framerate; }
   void stop() override { is_stopped_ = true; }
+  bool is_given_up() const { return is_stopped_ || request_.hooks.stop.stop_requested(); }
 
  private:
   void open_input();

@@ -17,7 +17,11 @@ class Playhead {
  public:
   PlayMode mode = PlayMode::loop;
 
-  void set_frame_count(std::int64_t count) { count_ = count; }
+  /// The position stays among the frames, once it is known how many there are.
+  void set_frame_count(std::int64_t count) {
+    count_ = count;
+    if (count > 0) go_to(position_);
+  }
   std::int64_t frame_count() const { return count_; }
   std::int64_t position() const { return position_; }
   bool is_playing() const { return is_playing_; }

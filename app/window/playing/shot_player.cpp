@@ -41,6 +41,7 @@ SceneSettings quicker(SceneSettings settings) {
 
 ShotPlayer::ShotPlayer(Recording recording, std::function<void()> tell)
     : recording_(std::move(recording)), tell_(std::move(tell)) {
+  if (is_one_pass(recording_.footage)) live_ = std::make_unique<LiveFeed>(recording_);
   log_.set_quiet(true);
   thread_ = std::jthread([this](const std::stop_token& stop) {
     constexpr int kNiceness = 5;
@@ -88,16 +89,25 @@ void ShotPlayer::finish(std::uint64_t wish, const std::optional<std::string>& er
   status_.warnings = log_.warnings();
 }
 
-/// The first frame as it is, while the shot is being opened.
-void ShotPlayer::show_footage() {
-  const std::unique_ptr<MediaSource> source = open_footage(recording_);
-  const std::optional<Frame> frame = source->read();
-  if (!frame) return;
+/// The newest frame of what is still being opened, tracked or baked; some a second are enough.
+void ShotPlayer::see_decoded(const Frame& frame) {
+  constexpr auto kInterval = std::chrono::milliseconds(100);
+  if (live_) live_->see(frame);
+  const auto has_drawn = [&] { return newest_ && newest_->wish != 0; };
+  const auto now = std::chrono::steady_clock::now();
+  {
+    const std::lock_guard lock(mutex_);
+    if (has_drawn() || now - previewed_ < kInterval) return;
+  }
+  previewed_ = now;
   auto shown = std::make_shared<DrawnFrame>();
-  shown->number = frame->number(), shown->time_s = frame->time_s();
-  shown->plate = shown->composite = rgb_of(*frame);
+  shown->number = frame.number(), shown->time_s = frame.time_s();
+  shown->plate = shown->composite = rgb_of(frame);
   shown->image = shown->composited = frame;
-  publish(std::move(shown));
+  {
+    const std::lock_guard lock(mutex_);
+    if (!has_drawn()) newest_ = std::move(shown);
+  }
   tell_();
 }
 
@@ -112,12 +122,17 @@ void ShotPlayer::open(const std::stop_token& stop) {
     if (stop.stop_requested() || (stage == "bake" && next_ && session_ && asks_otherwise(*next_))) throw GivenUp{};
     status_.stage = stage, status_.share = share;
   });
-  if (!newest()) show_footage();
   tracks_anew_ = true;
-  session_ = std::make_unique<Session>(recording_, SessionOptions{.is_revisited = true}, log_);
-  const SourceInfo& info = session_->footage().info();
+  session_.reset();
+  recording_.scene = wish_.settings;
+  const SourceHooks hooks{stop, [this](const Frame& frame) { see_decoded(frame); }};
+  const auto make_session = [&] {
+    session_ = std::make_unique<Session>(recording_, SessionOptions{.is_revisited = true, .hooks = hooks}, log_);
+    return session_->footage().info();
+  };
+  const SourceInfo info = live_ ? live_->open(make_session) : make_session();
   const std::lock_guard lock(mutex_);
-  status_.frame_count = info.frame_count.value_or(0);
+  status_.frame_count = live_ ? 0 : info.frame_count.value_or(0);
   if (info.frame_rate > 0) status_.frame_rate = info.frame_rate;
 }
 
@@ -217,19 +232,33 @@ void ShotPlayer::note_redoing(const std::set<ChangeCost>& costs) {
   status_.redoing = costs.empty() ? std::nullopt : std::optional(*costs.rbegin());
 }
 
+/// The footage may be shorter than it says.
+std::optional<FrameJob> ShotPlayer::frame_at(std::int64_t position) {
+  const std::optional<std::int64_t> count = session_->frame_count();
+  if (count) {
+    position = std::clamp(position, std::int64_t{0}, std::max(*count - 1, std::int64_t{0}));
+    const std::lock_guard lock(mutex_);
+    status_.frame_count = *count;
+    status_.damage = session_->damage();
+  }
+  session_->seek(position);
+  std::optional<FrameJob> job = session_->decode();
+  if (job) session_->track(*job);
+  return job;
+}
+
 void ShotPlayer::draw(const FrameWish& wish) {
   const auto start = std::chrono::steady_clock::now();
   const std::set<ChangeCost> costs = costs_of_change(session_->settings(), wish.settings);
   if (costs.contains(ChangeCost::track) || costs.contains(ChangeCost::footage)) tracks_anew_ = true;
   note_redoing(costs);
   const Rung rung = apply(wish);
-  session_->seek(wish.position);
-  std::optional<FrameJob> job = session_->decode();
+  std::optional<FrameJob> job = live_ ? live_->next(*session_) : frame_at(wish.position);
   if (!job) return;
-  session_->track(*job);
   if (std::exchange(tracks_anew_, false)) note_pose_errors();
   auto drawn = std::make_shared<DrawnFrame>();
-  drawn->position = wish.position, drawn->wish = wish_number_, drawn->rung = rung;
+  drawn->position = live_ ? job->image.number() : wish.position;
+  drawn->wish = wish_number_, drawn->rung = rung;
   drawn->number = job->image.number(), drawn->time_s = job->image.time_s();
   drawn->plate = drawn->composite = rgb_of(job->image);
   drawn->truth = truth_of(job->image);
@@ -258,17 +287,33 @@ void ShotPlayer::draw(const FrameWish& wish) {
   if (status_.redoing && rung == Rung::full) status_.took_s[*status_.redoing] = took_s;
 }
 
-/// Waits for a wish, or for a file that is saved: the last wish is fulfilled anew then. None where the player is to end.
+/// Waits for a wish, or for a file that is saved: the last wish is fulfilled anew then. Where live footage goes on, the last wish
+/// is for its next frame. None where the player is to end.
 std::optional<FrameWish> ShotPlayer::next_wish(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     changed_ = watch_.take_changed();
     std::unique_lock lock(mutex_);
-    if (changed_.empty()) wished_.wait_for(lock, stop, kWatchInterval, [&] { return next_.has_value(); });
+    const bool goes_on = live_ && live_->goes_on() && wish_number_ != 0;
+    if (changed_.empty() && !goes_on) wished_.wait_for(lock, stop, kWatchInterval, [&] { return next_.has_value(); });
+    if (!next_ && changed_.empty() && goes_on) return wish_;
     if (!next_ && changed_.empty()) continue;
     wish_number_ = next_ ? last_wish_ : ++last_wish_;
     return next_ ? std::exchange(next_, std::nullopt) : wish_;
   }
   return {};
+}
+
+/// Live footage is looked for again in a while; where it cannot come again, what was wished for is not left open.
+void ShotPlayer::note_lost(const std::string& why, const std::stop_token& stop) {
+  constexpr auto kInterval = std::chrono::seconds(1);
+  const bool comes_again = !session_ || session_->footage().info().is_live;
+  if (comes_again) session_.reset();
+  const bool is_looked_for = live_->lose(why, comes_again);
+  if (!is_looked_for) finish(wish_number_, why);
+  tell_();
+  if (!is_looked_for) return;
+  std::unique_lock lock(mutex_);
+  wished_.wait_for(lock, stop, kInterval, [] { return false; });
 }
 
 void ShotPlayer::run(const std::stop_token& stop) {
@@ -278,10 +323,14 @@ void ShotPlayer::run(const std::stop_token& stop) {
     try {
       see_changes();
       watch_files(wish_.settings);
+      if (live_ && session_ && live_->must_reopen(*session_, wish_.settings)) session_.reset();
       if (!session_) open(stop);
       draw(wish_);
       watch_files(wish_.settings);  // now it is known what the models name
     } catch (const GivenUp&) {
+      continue;
+    } catch (const LostSource& lost) {
+      note_lost(lost.why, stop);
       continue;
     } catch (const std::exception& failure) {
       error = failure.what();

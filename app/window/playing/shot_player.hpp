@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
@@ -24,6 +25,7 @@
 #include "app/window/playing/frame_extras.hpp"
 #include "app/window/playing/frame_light.hpp"
 #include "app/window/playing/layer_picture.hpp"
+#include "app/window/playing/live_feed.hpp"
 #include "app/window/playing/pose_errors.hpp"
 #include "app/window/surface/rgb_picture.hpp"
 #include "catchlight/camera.hpp"
@@ -88,16 +90,20 @@ struct PlayerStatus {
   std::int64_t frame_count = 0;  ///< 0 while it is not known
   double frame_rate = 24;
   std::vector<PlanEntry> plan;
+  std::optional<std::string> damage;                          ///< why the footage ends early, where it does
   std::optional<ChangeCost> redoing;                          ///< the dearest part of what is being redone
   std::map<ChangeCost, double> took_s;                        ///< from the last change of that cost to its picture
   std::shared_ptr<const std::vector<PoseError>> pose_errors;  ///< of all frames, once the shot is tracked
 };
 
+/// Recorded footage is drawn a frame for each wish. Of what can be read only once (cameras, streams, stdin) one frame after the
+/// other is drawn by the last wish; its position means nothing then.
+///
 /// Where a file that is drawn from was saved anew, or a shader of --shader-dir, what was wished for last is drawn again.
 class ShotPlayer {
  public:
-  /// Opens the recording on the player's thread. Its first frame is shown at once, and drawn when the shot is tracked and baked.
-  /// An error becomes part of the status. `tell` is called on the player's thread when there is something new to show.
+  /// Opens the recording on the player's thread. Until the shot is tracked and baked, its frames are shown as they are read.
+  /// An error becomes part of the status. `tell` is called on any thread when there is something new to show.
   explicit ShotPlayer(
       Recording recording, std::function<void()> tell = [] {});
   /// Gives up what is going on: tracking and a bake end at their next step.
@@ -107,6 +113,9 @@ class ShotPlayer {
 
   /// Asks for a frame. What was asked for before and has not begun is left out. The number of the wish.
   std::uint64_t ask(FrameWish wish);
+
+  /// How live footage comes in; null for recorded footage.
+  LiveFeed* live() const { return live_.get(); }
 
   /// The newest frame drawn; null before the first.
   std::shared_ptr<const DrawnFrame> newest() const;
@@ -120,6 +129,8 @@ class ShotPlayer {
   void run(const std::stop_token& stop);
   void open(const std::stop_token& stop);
   std::optional<FrameWish> next_wish(const std::stop_token& stop);
+  std::optional<FrameJob> frame_at(std::int64_t position);
+  void note_lost(const std::string& why, const std::stop_token& stop);
   void see_changes();
   void watch_files(const SceneSettings& settings);
   bool asks_otherwise(const FrameWish& wish) const;
@@ -129,7 +140,7 @@ class ShotPlayer {
   void note_time(Rung rung);
   void draw_extras(const FrameExtras& extras, const FrameJob& job, const Frame& plate, DrawnFrame& drawn);
   RgbPicture truth_of(const Frame& frame) const;
-  void show_footage();
+  void see_decoded(const Frame& frame);
   void note_pose_errors();
   void note_redoing(const std::set<ChangeCost>& costs);
   void publish(std::shared_ptr<const DrawnFrame> frame);
@@ -137,7 +148,9 @@ class ShotPlayer {
 
   Recording recording_;
   std::function<void()> tell_;
+  std::unique_ptr<LiveFeed> live_;
   Log log_;
+  std::chrono::steady_clock::time_point previewed_;  ///< the thread's that decodes
   // The player thread's.
   std::unique_ptr<Session> session_;
   FrameLightMaker light_maker_;

@@ -177,6 +177,12 @@ TEST(BareFootage, PatternsCamerasAndStreamsAreNotLookedUpAsFiles) {
   EXPECT_EQ(open_recording("/nowhere/plate/%04d.png", overrides).name, "plate");
 }
 
+TEST(BareFootage, ACameraIsNamedByItsNumber) {
+  EXPECT_TRUE(is_one_pass("camera:0"));
+  EXPECT_THAT(message_of<Error>([] { MediaSource::open("camera:99"); }), HasSubstr("camera:99"));
+  EXPECT_THAT(message_of<Error>([] { MediaSource::open("camera:front"); }), HasSubstr("as in camera:0 for /dev/video0"));
+}
+
 TEST(BareFootage, MissingFileSaysWhatCanBeGiven) {
   EXPECT_THAT(message_of<Error>([] { open_recording("/nowhere/clip.mp4"); }),
               HasSubstr("/nowhere/clip.mp4: no such file or folder; expected"));
