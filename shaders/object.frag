@@ -1,4 +1,4 @@
-// Diffuse exit radiance from the transfer, and what the surface mirrors: split-sum (Karis 2013), GGX, Schlick's Fresnel.
+// Diffuse light by the transfer, and what the surface mirrors: split-sum (Karis 2013), GGX, Schlick's Fresnel.
 #version 450 core
 #include "interface.h"
 #include "distortion.glsl"
@@ -9,7 +9,7 @@ in Surface {
   vec3 position_tag_m;
   vec3 normal_tag;
   vec3 color;
-  vec3 exit_radiance;
+  vec3 irradiance_over_pi;
   float mirrors_object;  // 0: nothing of the object lies above any corner
 } surface;
 uniform int material_index;
@@ -94,7 +94,7 @@ void main() {
     shine += highlight(i, dot(n, light_samples.to_light[i].xyz) * light_samples.irradiance[i].rgb, gloss);
   }
   reflected += shine * multiple_scattering(f0, table);
-  vec3 diffuse = surface.exit_radiance + irradiance * diffuse_albedo(m, surface.color) / kPi;
+  vec3 diffuse = (surface.irradiance_over_pi + irradiance / kPi) * diffuse_albedo(m, surface.color);
 
   // What the dielectric boundary mirrors does not reach the pigment below it.
   vec3 emitted = emitted_radiance(m, surface.color, view.exposure.rgb);

@@ -4,7 +4,7 @@
 #include "surroundings.glsl"
 
 layout(binding = TEXTURE_BRDF) uniform sampler2D brdf_table;  // scale and bias of F0 by (n.v, roughness)
-layout(std430, binding = BINDING_EXIT_RADIANCE) readonly buffer ExitRadianceBlock { float exit_radiance_floats[]; };
+layout(std430, binding = BINDING_IRRADIANCE) readonly buffer IrradianceBlock { float irradiance_floats[]; };
 layout(std430, binding = BINDING_VERTEX_LIGHTS) readonly buffer VertexLightsBlock { VertexLights vertex_lights[]; };
 layout(std430, binding = BINDING_MATERIALS) readonly buffer MaterialBlock { SurfaceMaterial materials[]; };
 
@@ -14,11 +14,11 @@ bool shows_lights_as_highlights(float roughness) {
 
 vec2 brdf_at(float n_v, float roughness) { return texture(brdf_table, vec2(clamp(n_v, 0.0, 1.0), roughness)).rg; }
 
-vec3 exit_radiance_of(uint vertex, vec3 albedo) {
+vec3 irradiance_over_pi_of(uint vertex) {
   uint at = 3u * vertex;
-  vec3 diffuse = vec3(exit_radiance_floats[at], exit_radiance_floats[at + 1u], exit_radiance_floats[at + 2u]);
-  if (light_samples.count.x == 0) return diffuse;
-  return diffuse + albedo * vertex_lights[vertex].irradiance_over_pi.rgb;
+  vec3 smooth_part = vec3(irradiance_floats[at], irradiance_floats[at + 1u], irradiance_floats[at + 2u]);
+  if (light_samples.count.x == 0) return smooth_part;
+  return smooth_part + vertex_lights[vertex].irradiance_over_pi.rgb;
 }
 
 struct SurfaceHit {
@@ -38,7 +38,7 @@ SurfaceHit surface_at(RayHit hit, vec3 direction) {
   surface.roughness = m.emissive_roughness.a;
   vec3 color = w.x * vertex_vec3(t.x, 2u) + w.y * vertex_vec3(t.y, 2u) + w.z * vertex_vec3(t.z, 2u);
   vec3 albedo = diffuse_albedo(m, color);
-  vec3 diffuse = w.x * exit_radiance_of(t.x, albedo) + w.y * exit_radiance_of(t.y, albedo) + w.z * exit_radiance_of(t.z, albedo);
+  vec3 diffuse = albedo * (w.x * irradiance_over_pi_of(t.x) + w.y * irradiance_over_pi_of(t.y) + w.z * irradiance_over_pi_of(t.z));
   float n_v = -dot(surface.normal, direction);
   vec4 factor = mirror_factor(m, color, brdf_at(n_v, surface.roughness));
   surface.sent = diffuse * factor.a + emitted_radiance(m, color, view.exposure.rgb);

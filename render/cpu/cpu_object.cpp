@@ -58,7 +58,7 @@ CpuObject::CpuObject(const RenderScene& scene, const RayScene& rays, const Bound
       mirrored_(materials_, mirror_rays_, reflection_rays) {}
 
 void CpuObject::light_by(const SplitLight& light_tag, bool stands_still, const KeyedCache& kept) {
-  exit_radiance_ = transferred_light(scene_.transfer.object, scene_.transfer.object_direct, light_tag);
+  irradiance_over_pi_ = transferred_light(scene_.transfer.object, scene_.transfer.object_direct, light_tag);
   direct_.set_samples(light_tag.samples, stands_still, kept);
   highlights_.set_samples(light_tag.samples);
 }
@@ -74,7 +74,7 @@ CpuObject::Shaded CpuObject::shade(const SurfacePoint& point, const glm::vec3& m
   Shaded result{};
   if (mirrors) result.reflected = glm::vec3(factor) * mirrored;
   const glm::vec3 irradiance = direct_.irradiance(point, shines ? shares.data() : nullptr);
-  const glm::vec3 diffuse = point.exit_radiance + irradiance * shading::diffuse_albedo(m, point.color) / shading::kPi;
+  const glm::vec3 diffuse = (point.irradiance_over_pi + irradiance / shading::kPi) * shading::diffuse_albedo(m, point.color);
   if (shines) {
     const glm::vec3 f0 = shading::mirror_f0(m, point.color);
     const GlossySurface surface{point.normal, point.to_viewer, roughness * roughness, f0, shading::mirror_f90(m)};
@@ -124,10 +124,10 @@ void CpuObject::draw(const FrameView& view, const FramePlan& plan, const PixelRa
                      const PlateLight* plate, ObjectImages& images) {
   if (images.covered.empty()) return;
   around_.set_view(view, plan.distortion_limit, shadow, plate);
-  VertexLight light{exit_radiance_};
+  VertexLight light{irradiance_over_pi_};
   if (materials_.reflects) light.direct_over_pi = direct_.at_vertices_over_pi();
   mirror_rays_.set_frame(around_, light, view.exposure);
-  const VisibleSurface& surface = finder_.find(view, plan.distortion_limit, pixel_rays, images.covered, exit_radiance_);
+  const VisibleSurface& surface = finder_.find(view, plan.distortion_limit, pixel_rays, images.covered, irradiance_over_pi_);
   direct_.prepare(surface.points);
   put(view, surface, mirrored_.find(surface, around_, !direct_.samples().empty()), images);
 }

@@ -62,7 +62,7 @@ class CpuObject {
   Highlights highlights_;
   MirrorRays mirror_rays_;
   MirroredLight mirrored_;
-  std::vector<glm::vec3> exit_radiance_;
+  std::vector<glm::vec3> irradiance_over_pi_;
 };
 
 }  // namespace catchlight::render

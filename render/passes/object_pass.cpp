@@ -54,7 +54,7 @@ void set_attribute(GLuint array, GLuint attribute, GLuint binding, std::size_t o
 ObjectPass::ObjectPass(const Mesh& mesh, LitPoints vertices_lit, const ReflectionMap& reflections, const ReflectionMap& rest,
                        float ray_start_m, ShaderLibrary& shaders)
     : program_(shaders.program({.vertex = "object.vert", .fragment = "object.frag"})),
-      exit_radiance_(std::move(vertices_lit)),
+      vertex_light_(std::move(vertices_lit)),
       vertex_lights_capture_("vertex_lights.vert", {"irradiance_over_pi", "lit", "dark"}, sizeof(shader_interface::VertexLights),
                              shaders),
       triangle_lights_capture_("triangle_lights.vert", {"flux_red", "flux_green", "flux_blue", "shining", "mixed"},
@@ -87,11 +87,11 @@ void ObjectPass::upload_mesh(const Mesh& mesh) {
   const GLuint array = vertex_array_.id();
   glVertexArrayElementBuffer(array, indices_.id());
   glVertexArrayVertexBuffer(array, 0, vertices_.id(), 0, sizeof(Vertex));
-  glVertexArrayVertexBuffer(array, 1, exit_radiance_.radiance(), 0, sizeof(glm::vec3));
+  glVertexArrayVertexBuffer(array, 1, vertex_light_.radiance(), 0, sizeof(glm::vec3));
   set_attribute(array, ATTRIBUTE_POSITION, 0, offsetof(Vertex, position_m));
   set_attribute(array, ATTRIBUTE_NORMAL, 0, offsetof(Vertex, normal));
   set_attribute(array, ATTRIBUTE_COLOR, 0, offsetof(Vertex, color));
-  set_attribute(array, ATTRIBUTE_EXIT_RADIANCE, 1, 0);
+  set_attribute(array, ATTRIBUTE_IRRADIANCE, 1, 0);
 }
 
 void ObjectPass::upload_materials(const Mesh& mesh) {
@@ -118,11 +118,11 @@ void ObjectPass::upload_hierarchy(const Mesh& mesh, float ray_start_m) {
 }
 
 void ObjectPass::light_by(const LightTransfer& light, const ShadowedLights& lights) {
-  exit_radiance_.evaluate(light);
+  vertex_light_.evaluate(light);
   if (lights.count() == 0) return;
   lights.bind();
   bind_storage(BINDING_VERTICES, vertices_.id());
-  vertex_lights_capture_.run(vertex_lights_.id(), 0, exit_radiance_.count());
+  vertex_lights_capture_.run(vertex_lights_.id(), 0, vertex_light_.count());
   bind_storage(BINDING_VERTEX_LIGHTS, vertex_lights_.id());
   bind_storage(BINDING_CORNERS, indices_.id());
   triangle_lights_capture_.run(triangle_lights_.id(), 0, kept_triangles_);
@@ -157,7 +157,7 @@ void ObjectPass::draw(const ObjectTarget& target, const PixelRect& rect, int fra
   bind_storage(BINDING_BVH_NODES, bvh_nodes_.id());
   bind_storage(BINDING_BVH_TRIANGLES, bvh_triangles_.id());
   bind_storage(BINDING_VERTICES, vertices_.id());
-  bind_storage(BINDING_EXIT_RADIANCE, exit_radiance_.radiance());
+  bind_storage(BINDING_IRRADIANCE, vertex_light_.radiance());
   bind_storage(BINDING_MATERIALS, materials_.id());
   bind_storage(BINDING_VERTEX_LIGHTS, vertex_lights_.id());
   bind_storage(BINDING_TRIANGLE_LIGHTS, triangle_lights_.id());

@@ -22,7 +22,8 @@ class ObjectPass {
   ObjectPass(const Mesh& mesh, LitPoints vertices_lit, const ReflectionMap& reflections, const ReflectionMap& rest,
              float ray_start_m, ShaderLibrary& shaders);
 
-  /// Finds the object's exit radiance under `light`; needed again whenever the light turns. `lights` must be up to date.
+  /// Finds what arrives at the object's vertices under `light`; needed again whenever the light turns. `lights` must be up to
+  /// date.
   void light_by(const LightTransfer& light, const ShadowedLights& lights);
 
   /// Draws all triangles, with the program in use.
@@ -48,7 +49,7 @@ class ObjectPass {
   void upload_hierarchy(const Mesh& mesh, float ray_start_m);
 
   Program& program_;
-  LitPoints exit_radiance_;
+  LitPoints vertex_light_;
   PointCapture vertex_lights_capture_, triangle_lights_capture_;
   int kept_triangles_;
   GlBuffer vertex_lights_, triangle_lights_;  ///< what vertices and triangles see of the lights; triangles as they are drawn

@@ -25,6 +25,14 @@ std::vector<glm::vec3> diffuse_albedos(const Mesh& mesh) {
   return albedo;
 }
 
+std::vector<char> diffuse_vertices(const Mesh& mesh, const std::vector<glm::vec3>& albedo) {
+  std::vector<char> is_diffuse(mesh.vertices.size());
+  for (std::size_t v = 0; v < albedo.size(); ++v) is_diffuse[v] = albedo[v] != glm::vec3(0);
+  for (std::size_t i = 0; i < mesh.indices.size(); ++i)
+    if (mesh.materials[mesh.triangle_material[i / 3]].has_textures()) is_diffuse[mesh.indices[i]] = 1;
+  return is_diffuse;
+}
+
 /// Links those rays that are among the first, or those that are not.
 void link_surfaces(const PointRays& point_rays, int first, bool is_first, LightLinks& links) {
   const RayStream& rays = point_rays.rays();
@@ -38,7 +46,12 @@ void link_surfaces(const PointRays& point_rays, int first, bool is_first, LightL
 }  // namespace
 
 BakePoints::BakePoints(const Mesh& mesh_tag, const ReceiverGrid& grid, const TransferOptions& options)
-    : mesh_(mesh_tag), grid_(grid), options_(options), scene_(mesh_tag), albedo_(diffuse_albedos(mesh_tag)) {
+    : mesh_(mesh_tag),
+      grid_(grid),
+      options_(options),
+      scene_(mesh_tag),
+      albedo_(diffuse_albedos(mesh_tag)),
+      is_diffuse_(diffuse_vertices(mesh_tag, albedo_)) {
   const Bounds bounds = bounds_of(mesh_tag);
   middle_m_ = bounds.middle_m();
   radius_m_ = bounds.diagonal_m() * 0.5f;

@@ -21,6 +21,8 @@ class BakePoints {
   const RayScene& scene() const { return scene_; }
   /// Diffuse albedo of each vertex. Metals have none.
   const std::vector<glm::vec3>& albedo() const { return albedo_; }
+  /// Whether the surface around the vertex sends anything back: a texture may, where the vertex itself is black.
+  bool is_diffuse(std::size_t v) const { return is_diffuse_[v] != 0; }
   /// Whether the receiver's own light reaches the object from its true place.
   bool receiver_sends_back() const { return receiver_sends_back_; }
 
@@ -46,6 +48,7 @@ class BakePoints {
   const TransferOptions& options_;
   RayScene scene_;
   std::vector<glm::vec3> albedo_;
+  std::vector<char> is_diffuse_;
   glm::vec3 middle_m_;  ///< middle of a sphere around the object
   float radius_m_, lift_m_;
   bool receiver_sends_back_;

@@ -121,7 +121,14 @@ class Baker {
     for (int part = 0; part < 2; ++part) links.end_part();
   }
 
-  bool is_dark(std::size_t v) const { return points_.albedo()[v] == glm::vec3(0); }
+  bool is_dark(std::size_t v) const { return !points_.is_diffuse(v); }
+
+  // What leaves the vertices of the light that arrives there.
+  std::vector<glm::vec3> sent_back(std::vector<glm::vec3> arriving) const {
+    for (std::size_t v = 0; v < points_.vertices(); ++v)
+      for (glm::vec3& value : coefficients(arriving, v)) value *= points_.albedo()[v];
+    return arriving;
+  }
 
   // The transfer is the closed form of the open hemisphere less what the occluded rays would have brought: exact where nothing is
   // in the way, and elsewhere only the blocked part is uncertain.
@@ -130,7 +137,7 @@ class Baker {
     unshadowed_lobe(mesh_.vertices[v].normal, options_.bands, std::span(lobe).first(count_));
     rays.add_blocked_light(options_.bands, std::span(blocked).first(count_));
     const std::span<glm::vec3> out = coefficients(transfer_.object_direct, v);
-    for (int i = 0; i < count_; ++i) out[i] = points_.albedo()[v] * (lobe[i] - blocked[i]);
+    for (int i = 0; i < count_; ++i) out[i] = glm::vec3(lobe[i] - blocked[i]);
   }
 
   // Whether no ray escapes and most meet backs of faces, as from within a solid; in a narrow gap or a closed room they meet
@@ -188,8 +195,9 @@ class Baker {
   // Sends light over one more surface each time, until it stops mattering. What came last is passed on alone, so that fewer rays
   // do for it the less it is.
   void bake_bounces(const InteriorVertices& interior, const std::vector<char>& covered) {
-    std::vector<glm::vec3> last = transfer_.object_direct, sent_up = sent_up_by(transfer_.receiver_direct);
-    for (int bounce = 0; bounce < options_.bounces && largest(last) > kMinBounce * largest(transfer_.object); ++bounce) {
+    std::vector<glm::vec3> last = sent_back(transfer_.object_direct), sent_up = sent_up_by(transfer_.receiver_direct);
+    const float most = largest(last);
+    for (int bounce = 0; bounce < options_.bounces && largest(last) > kMinBounce * most; ++bounce) {
       std::vector<glm::vec3> next(last.size()), on_receiver(transfer_.receiver.size());
       gather_at_vertices(bounce, last, sent_up, next);
       gather_on_receiver(bounce, last, on_receiver);
@@ -198,7 +206,7 @@ class Baker {
       add(next, transfer_.object);
       add(on_receiver, transfer_.receiver);
       sent_up = sent_up_by(on_receiver);
-      last = std::move(next);
+      last = sent_back(std::move(next));
     }
   }
 
@@ -238,7 +246,7 @@ class Baker {
     if (!keeps) kept.rays = 0;
   }
 
-  // Gathers what leaves the vertices of the light that front faces and the receiver sent in their direction.
+  // Gathers what arrives at the vertices of the light that front faces and the receiver sent in their direction.
   void gather_at_vertices(int bounce, const std::vector<glm::vec3>& sent, const std::vector<glm::vec3>& sent_up,
                           std::vector<glm::vec3>& next) {
     const auto link = [&](std::size_t v, PointRays& rays, LightLinks& links) {
@@ -250,7 +258,6 @@ class Baker {
       const std::span<glm::vec3> out = coefficients(next, v);
       gather(sent, sent_up, out);
       for (int i = 0; bounce == 0 && i < count_; ++i) out[i] += transfer_.receiver_unshadowed[i] * correction_[v];
-      for (glm::vec3& value : out) value *= points_.albedo()[v];
     });
   }
 

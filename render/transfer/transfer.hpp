@@ -14,10 +14,10 @@
 
 namespace catchlight::render {
 
-/// What bake_transfer makes, all in the tag frame. Vertex v's exit radiance per channel = sum_i light_i * object[v * n^2 + i]:
-/// albedo (of the diffuse part) included. Receiver point p's irradiance relative to the unshadowed one = dot(light, receiver[p])
-/// / dot(light, receiver_unshadowed): that ratio multiplies the real surface (Debevec 1998); receiver values are normalised for a
-/// white (albedo 1) surface.
+/// What bake_transfer makes, all in the tag frame. Vertex v's irradiance / pi per channel = sum_i light_i * object[v * n^2 + i]:
+/// times the diffuse albedo of a place on the surface, it is the radiance that leaves it. 0 where nothing is diffuse. Receiver
+/// point p's irradiance relative to the unshadowed one = dot(light, receiver[p]) / dot(light, receiver_unshadowed): that ratio
+/// multiplies the real surface (Debevec 1998); receiver values are normalised for a white (albedo 1) surface.
 struct Transfer {
   int bands = 0;
   std::vector<glm::vec3> object;         ///< vertices * bands^2

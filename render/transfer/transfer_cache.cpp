@@ -7,7 +7,7 @@ namespace catchlight::render {
 namespace {
 
 // Raise when the bake or its members change: older files then no longer match.
-constexpr std::uint32_t kVersion = 7;
+constexpr std::uint32_t kVersion = 8;
 
 void add_scene(ContentHash& hash, const Mesh& mesh) {
   static_assert(sizeof(Vertex) == 9 * sizeof(float), "vertices are hashed as they lie in memory");

@@ -73,11 +73,11 @@ Transfer unshadowed_transfer(const Mesh& mesh, int bands) {
   std::vector<float> y(static_cast<std::size_t>(sh_count(bands)));
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     evaluate_sh(glm::normalize(glm::dvec3(mesh.vertices[v].normal)), bands, y);
-    const glm::vec3 albedo = material_of[v]->base_color * mesh.vertices[v].color * (1 - material_of[v]->metallic);
+    const bool is_diffuse = material_of[v]->base_color * mesh.vertices[v].color * (1 - material_of[v]->metallic) != glm::vec3(0);
     for (int l = 0; l < bands; ++l) {
       for (int m = -l; m <= l; ++m) {
-        transfer.object.push_back(albedo * static_cast<float>(cosine_lobe_over_pi(l)) *
-                                  y[static_cast<std::size_t>(sh_index(l, m))]);
+        transfer.object.emplace_back(
+            is_diffuse ? static_cast<float>(cosine_lobe_over_pi(l)) * y[static_cast<std::size_t>(sh_index(l, m))] : 0.0f);
       }
     }
   }

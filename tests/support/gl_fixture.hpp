@@ -31,8 +31,7 @@ Mesh sphere(double radius_m, const glm::dvec3& center_m, int rings = 48);
 /// Two triangles (counter-clockwise seen from +z) at height z_m.
 Mesh square(const glm::dvec2& min_m, const glm::dvec2& max_m, double z_m);
 
-/// Unshadowed diffuse transfer by the closed form; albedo per vertex = base colour x vertex colour x (1 - metallic) of its
-/// material.
+/// Unshadowed transfer by the closed form; nothing for vertices whose material has no diffuse part.
 Transfer unshadowed_transfer(const Mesh& mesh, int bands);
 
 /// Adds a grid on which `ratio(x, y)` of the unshadowed light arrives.

@@ -72,16 +72,17 @@ bool MirrorRays::meet(Walk& walk, const RayStream& hits, std::size_t at, MirrorR
   const std::uint32_t triangle = hits.triangle[at], *corner = &mesh_.indices[3 * static_cast<std::size_t>(triangle)];
   const glm::vec3 w(1 - hits.u[at] - hits.v[at], hits.u[at], hits.v[at]);
   const auto& m = materials_.materials[mesh_.triangle_material[triangle]];
-  glm::vec3 normal(0), color(0), exit(0), direct(0);
+  glm::vec3 normal(0), color(0), irradiance_over_pi(0);
   for (int k = 0; k < 3; ++k) {
     const Vertex& vertex = mesh_.vertices[corner[k]];
-    normal += w[k] * vertex.normal, color += w[k] * vertex.color, exit += w[k] * light_.exit_radiance[corner[k]];
-    if (!light_.direct_over_pi.empty()) direct += w[k] * light_.direct_over_pi[corner[k]];
+    normal += w[k] * vertex.normal, color += w[k] * vertex.color,
+        irradiance_over_pi += w[k] * light_.irradiance_over_pi[corner[k]];
+    if (!light_.direct_over_pi.empty()) irradiance_over_pi += w[k] * light_.direct_over_pi[corner[k]];
   }
   normal /= std::max(glm::length(normal), 1e-20f);
   const float n_v = -glm::dot(normal, walk.direction), roughness = m.emissive_roughness.w;
   const glm::vec4 factor = shading::mirror_factor(m, color, brdf_.at(n_v, roughness));
-  ray.radiance += walk.through * ((exit + shading::diffuse_albedo(m, color) * direct) * factor.w +
+  ray.radiance += walk.through * (irradiance_over_pi * shading::diffuse_albedo(m, color) * factor.w +
                                   shading::emitted_radiance(m, color, exposure_));
   walk.through *= glm::vec3(factor);
   const glm::vec3 position = walk.origin_m + hits.far[at] * walk.direction;

@@ -13,9 +13,9 @@
 
 namespace catchlight::render {
 
-/// The light that leaves the vertices but for what they mirror; a value each.
+/// The light that arrives at the vertices; a value each.
 struct VertexLight {
-  std::span<const glm::vec3> exit_radiance;        ///< by the transfer
+  std::span<const glm::vec3> irradiance_over_pi;   ///< by the transfer
   std::span<const glm::vec3> direct_over_pi = {};  ///< irradiance / pi of the lights that are split off; none without
 };
 

@@ -41,7 +41,7 @@ struct SurfaceFinder::Frame {
   const DistortionLimit& limit;
   const PixelRays& pixel_rays;
   PixelRect rect;
-  std::span<const glm::vec3> exit_radiance;
+  std::span<const glm::vec3> irradiance_over_pi;
   glm::vec3 eye_tag_m;
   glm::mat3 tag_from_camera;
 
@@ -104,8 +104,8 @@ SurfacePoint SurfaceFinder::point_at(const Frame& frame, const Hit& hit) const {
   point.position_m = w.x * a.position_m + w.y * b.position_m + w.z * c.position_m;
   point.normal = hit.normal;
   point.color = w.x * a.color + w.y * b.color + w.z * c.color;
-  point.exit_radiance =
-      w.x * frame.exit_radiance[corner[0]] + w.y * frame.exit_radiance[corner[1]] + w.z * frame.exit_radiance[corner[2]];
+  point.irradiance_over_pi = w.x * frame.irradiance_over_pi[corner[0]] + w.y * frame.irradiance_over_pi[corner[1]] +
+                             w.z * frame.irradiance_over_pi[corner[2]];
   point.triangle = hit.triangle;
   point.weights = hit.weights;
   point.depth_m = hit.depth_m;
@@ -120,7 +120,7 @@ namespace {
 /// outline.
 void finish(SurfacePoint& point, int count, const glm::vec3& eye_tag_m) {
   const float scale = 1 / static_cast<float>(count);
-  point.position_m *= scale, point.color *= scale, point.exit_radiance *= scale, point.depth_m *= scale;
+  point.position_m *= scale, point.color *= scale, point.irradiance_over_pi *= scale, point.depth_m *= scale;
   point.normal /= std::max(glm::length(point.normal), 1e-20f);
   point.to_viewer = glm::normalize(eye_tag_m - point.position_m);
   const float n_v = glm::dot(point.normal, point.to_viewer);
@@ -133,7 +133,7 @@ void finish(SurfacePoint& point, int count, const glm::vec3& eye_tag_m) {
 
 void add(SurfacePoint& sum, const SurfacePoint& other) {
   sum.position_m += other.position_m, sum.normal += other.normal, sum.color += other.color;
-  sum.exit_radiance += other.exit_radiance, sum.depth_m += other.depth_m;
+  sum.irradiance_over_pi += other.irradiance_over_pi, sum.depth_m += other.depth_m;
 }
 
 }  // namespace
@@ -280,12 +280,12 @@ void SurfaceFinder::put_band(const Frame& frame, int band, std::vector<SurfacePo
 }
 
 const VisibleSurface& SurfaceFinder::find(const FrameView& view, const DistortionLimit& limit, const PixelRays& pixel_rays,
-                                          const PixelRect& rect, std::span<const glm::vec3> exit_radiance) {
+                                          const PixelRect& rect, std::span<const glm::vec3> irradiance_over_pi) {
   const Frame frame{view,
                     limit,
                     pixel_rays,
                     rect,
-                    exit_radiance,
+                    irradiance_over_pi,
                     glm::vec3(inverse(view.camera_from_tag).translation_m),
                     glm::mat3(glm::transpose(view.camera_from_tag.rotation))};
   mark_outline(frame);

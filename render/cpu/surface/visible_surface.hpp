@@ -21,7 +21,7 @@ struct SurfacePoint {
   glm::vec3 normal{0};     ///< length 1, towards the viewer
   glm::vec3 to_viewer{0};  ///< length 1
   glm::vec3 color{0};      ///< Vertex::color
-  glm::vec3 exit_radiance{0};
+  glm::vec3 irradiance_over_pi{0};
   std::uint32_t triangle = 0;
   glm::vec2 weights{0};     ///< barycentric weights of corners 1 and 2
   float depth_m = 0;        ///< along the camera's z
@@ -43,9 +43,9 @@ class SurfaceFinder {
   /// with the normal that no two samples are shaded together. Keeps references.
   SurfaceFinder(const Mesh& mesh, const RayScene& rays, int samples, std::vector<char> is_polished);
 
-  /// What the pixels of `rect` show. `exit_radiance`: a value a vertex.
+  /// What the pixels of `rect` show. `irradiance_over_pi`: a value a vertex.
   const VisibleSurface& find(const FrameView& view, const DistortionLimit& limit, const PixelRays& pixel_rays,
-                             const PixelRect& rect, std::span<const glm::vec3> exit_radiance);
+                             const PixelRect& rect, std::span<const glm::vec3> irradiance_over_pi);
 
  private:
   struct Frame;

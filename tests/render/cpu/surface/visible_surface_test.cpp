@@ -29,9 +29,9 @@ VisibleSurface seen(const Mesh& mesh, const FrameView& view, int samples = 4) {
   const DistortionLimit limit = distortion_limit(view.camera);
   PixelRays pixel_rays;
   pixel_rays.set_camera(view.camera, limit);
-  const std::vector<glm::vec3> exit_radiance(mesh.vertices.size(), glm::vec3(1, 2, 3));
+  const std::vector<glm::vec3> irradiance_over_pi(mesh.vertices.size(), glm::vec3(1, 2, 3));
   SurfaceFinder finder(mesh, rays, samples, std::vector<char>(mesh.materials.size(), 0));
-  return finder.find(view, limit, pixel_rays, {0, 0, view.camera.width_px, view.camera.height_px}, exit_radiance);
+  return finder.find(view, limit, pixel_rays, {0, 0, view.camera.width_px, view.camera.height_px}, irradiance_over_pi);
 }
 
 double area_px(const VisibleSurface& surface) {
@@ -81,7 +81,7 @@ TEST(VisibleSurface, KnowsWhatAPixelShows) {
       EXPECT_NEAR(glm::length(point.normal), 1, 1e-5);
       EXPECT_GE(glm::dot(point.normal, point.to_viewer), -1e-5f);
       EXPECT_LT(glm::distance(point.to_viewer, glm::normalize(glm::vec3(0, 0, 0.5f) - point.position_m)), 1e-5f);
-      EXPECT_LT(glm::distance(point.exit_radiance, glm::vec3(1, 2, 3)), 1e-5f);
+      EXPECT_LT(glm::distance(point.irradiance_over_pi, glm::vec3(1, 2, 3)), 1e-5f);
       EXPECT_FALSE(point.is_back);
       if (point.coverage == 1) {
         EXPECT_GT(glm::dot(point.normal, glm::normalize(point.position_m)), 0.998f);
