@@ -17,6 +17,10 @@ constexpr std::size_t kPointsAtOnce = 512;
 /// So many points ahead their light is fetched.
 constexpr std::size_t kFetchedAhead = 8;
 constexpr float kBrightest = 1e9f;
+/// Irradiance is smooth: more bands of the light than these hardly show in it.
+constexpr int kIrradianceBands = 3;
+/// Bands ring around strong light, light cannot be negative: this share of its mean is the least that arrives on any side.
+constexpr float kDarkest = 0.02f;
 
 /// Never NaN, infinite or negative (out of the plate's gamut): one such pixel would spread with the glare.
 glm::vec3 exposed(const FrameView& view, const glm::vec3& radiance) {
@@ -49,23 +53,50 @@ CpuObject::CpuObject(const RenderScene& scene, const RayScene& rays, const Bound
       bounds_(bounds),
       materials_(surface_materials(scene.mesh)),
       brdf_(materials_.reflects),
+      textures_(scene.mesh, materials_),
       probe_(materials_.reflects ? scene.reflections : ReflectionMap{}),
       rest_(materials_.reflects ? scene.rest_reflections : ReflectionMap{}),
       around_(probe_, rest_, scene.probe_in_tag_m),
       finder_(scene.mesh, rays, samples, polished(materials_)),
       direct_(scene.mesh, rays, bounds),
-      mirror_rays_(scene.mesh, rays, materials_, brdf_, bounds.empty() ? 0 : kSkinShare * bounds.rounded_diagonal_m()),
+      mirror_rays_(scene.mesh, rays, textures_, brdf_, bounds.empty() ? 0 : kSkinShare * bounds.rounded_diagonal_m()),
       mirrored_(materials_, mirror_rays_, reflection_rays) {}
 
 void CpuObject::light_by(const SplitLight& light_tag, bool stands_still, const KeyedCache& kept) {
   irradiance_over_pi_ = transferred_light(scene_.transfer.object, scene_.transfer.object_direct, light_tag);
+  smooth_light_.assign(light_tag.whole.begin(), light_tag.whole.begin() + std::min<std::ptrdiff_t>(sh_count(kIrradianceBands),
+                                                                                                   std::ssize(light_tag.whole)));
+  for (std::size_t i = 0; i < std::min(smooth_light_.size(), light_tag.split_off.size()); ++i)
+    smooth_light_[i] -= light_tag.split_off[i];
   direct_.set_samples(light_tag.samples, stands_still, kept);
   highlights_.set_samples(light_tag.samples);
 }
 
-CpuObject::Shaded CpuObject::shade(const SurfacePoint& point, const glm::vec3& mirrored, const glm::vec3& exposure) const {
+/// Irradiance / pi. A normal map turns the surface under the light that was found for the smooth one, with the same shadows.
+glm::vec3 CpuObject::arriving_over_pi(const TexturedSurface* textured, const SurfacePoint& point, bool shines,
+                                      float* shares) const {
+  if (!textured || !textured->is_bent) {
+    const float occlusion = textured ? textured->occlusion : 1;
+    return occlusion * point.irradiance_over_pi + direct_.irradiance(point, shines ? shares : nullptr) / shading::kPi;
+  }
+  direct_.irradiance(point, shares);
+  glm::vec3 direct(0);
+  const std::span<const LightSample> samples = direct_.samples();
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    direct +=
+        shares[i] * std::max(glm::dot(point.normal, glm::vec3(samples[i].direction)), 0.0f) * glm::vec3(samples[i].irradiance);
+  const glm::vec3 smooth(irradiance_over_pi(smooth_light_, textured->smooth_normal)),
+      bent(irradiance_over_pi(smooth_light_, point.normal));
+  const glm::vec3 floor = kDarkest * glm::max(glm::vec3(smooth_light_.front()), 1e-20f);
+  const glm::vec3 turned = glm::max(bent, floor) / glm::max(smooth, floor);
+  return textured->occlusion * turned * point.irradiance_over_pi + direct / shading::kPi;
+}
+
+CpuObject::Shaded CpuObject::shade(const VisibleSurface& surface, const SurfacePoint& point, const glm::vec3& mirrored,
+                                   const glm::vec3& exposure) const {
   std::array<float, kMaxLightSamples> shares;
-  const auto& m = materials_.materials[point.material];
+  const TexturedSurface* textured = surface.textured_at(point);
+  const auto& m = surface.material_at(point, materials_);
   const float roughness = m.emissive_roughness.w;
   const bool mirrors = m.base_color_metallic.w > 0 || m.dielectric.x > 0;
   const bool shines = mirrors && !direct_.samples().empty() && roughness >= shading::kMinHighlightRoughness;
@@ -73,12 +104,11 @@ CpuObject::Shaded CpuObject::shade(const SurfacePoint& point, const glm::vec3& m
   const glm::vec4 factor = shading::mirror_factor(m, point.color, table);
   Shaded result{};
   if (mirrors) result.reflected = glm::vec3(factor) * mirrored;
-  const glm::vec3 irradiance = direct_.irradiance(point, shines ? shares.data() : nullptr);
-  const glm::vec3 diffuse = (point.irradiance_over_pi + irradiance / shading::kPi) * shading::diffuse_albedo(m, point.color);
+  const glm::vec3 diffuse = arriving_over_pi(textured, point, shines, shares.data()) * shading::diffuse_albedo(m, point.color);
   if (shines) {
     const glm::vec3 f0 = shading::mirror_f0(m, point.color);
-    const GlossySurface surface{point.normal, point.to_viewer, roughness * roughness, f0, shading::mirror_f90(m)};
-    result.reflected += shading::multiple_scattering(f0, table) * highlights_.radiance(surface, shares.data());
+    const GlossySurface gloss{point.normal, point.to_viewer, roughness * roughness, f0, shading::mirror_f90(m)};
+    result.reflected += shading::multiple_scattering(f0, table) * highlights_.radiance(gloss, shares.data());
   }
   // What the dielectric boundary mirrors does not reach the pigment below it.
   result.emitted = shading::emitted_radiance(m, point.color, exposure);
@@ -103,7 +133,7 @@ void CpuObject::put(const FrameView& view, const VisibleSurface& surface, std::s
       direct_.prefetch(points[std::min(i + kFetchedAhead, points.size() - 1)]);
       const int x = static_cast<int>(point.pixel) % rect.width + rect.x - images.rect.x;
       const int y = static_cast<int>(point.pixel) / rect.width + rect.y - images.rect.y;
-      const Shaded shaded = shade(point, mirrored[i], view.exposure);
+      const Shaded shaded = shade(surface, point, mirrored[i], view.exposure);
       add(images.color.pixel(x, y), exposed(view, shaded.radiance), point.coverage);
       images.color.pixel(x, y)[3] += point.coverage;
       if (!images.emission.data.empty()) add(images.emission.pixel(x, y), exposed(view, shaded.emitted), point.coverage);
@@ -127,7 +157,8 @@ void CpuObject::draw(const FrameView& view, const FramePlan& plan, const PixelRa
   VertexLight light{irradiance_over_pi_};
   if (materials_.reflects) light.direct_over_pi = direct_.at_vertices_over_pi();
   mirror_rays_.set_frame(around_, light, view.exposure);
-  const VisibleSurface& surface = finder_.find(view, plan.distortion_limit, pixel_rays, images.covered, irradiance_over_pi_);
+  VisibleSurface& surface = finder_.find(view, plan.distortion_limit, pixel_rays, images.covered, irradiance_over_pi_);
+  textures_.apply(view, surface);
   direct_.prepare(surface.points);
   put(view, surface, mirrored_.find(surface, around_, !direct_.samples().empty()), images);
 }

@@ -10,6 +10,7 @@
 #include "render/cpu/receiver/receiver_shadow.hpp"
 #include "render/cpu/surface/direct_light.hpp"
 #include "render/cpu/surface/highlights.hpp"
+#include "render/cpu/surface/surface_textures.hpp"
 #include "render/cpu/surface/visible_surface.hpp"
 #include "render/frame_plan.hpp"
 #include "render/render_scene.hpp"
@@ -48,13 +49,16 @@ class CpuObject {
  private:
   struct Shaded;
 
-  Shaded shade(const SurfacePoint& point, const glm::vec3& mirrored, const glm::vec3& exposure) const;
+  Shaded shade(const VisibleSurface& surface, const SurfacePoint& point, const glm::vec3& mirrored,
+               const glm::vec3& exposure) const;
+  glm::vec3 arriving_over_pi(const TexturedSurface* textured, const SurfacePoint& point, bool shines, float* shares) const;
   void put(const FrameView& view, const VisibleSurface& surface, std::span<const glm::vec3> mirrored, ObjectImages& images) const;
 
   const RenderScene& scene_;
   Bounds bounds_;
   SurfaceMaterials materials_;
   BrdfTable brdf_;
+  SurfaceTextures textures_;
   CubeTexture probe_, rest_;
   Surroundings around_;
   SurfaceFinder finder_;
@@ -63,6 +67,7 @@ class CpuObject {
   MirrorRays mirror_rays_;
   MirroredLight mirrored_;
   std::vector<glm::vec3> irradiance_over_pi_;
+  ShRgb smooth_light_;  ///< what is not split off, as far as it shows in irradiance
 };
 
 }  // namespace catchlight::render

@@ -27,9 +27,9 @@ struct MirrorRays::Batch {
   std::vector<std::size_t> again;
 };
 
-MirrorRays::MirrorRays(const Mesh& mesh, const RayScene& scene, const SurfaceMaterials& materials, const BrdfTable& brdf,
+MirrorRays::MirrorRays(const Mesh& mesh, const RayScene& scene, const SurfaceTextures& textures, const BrdfTable& brdf,
                        float skin_m)
-    : mesh_(mesh), scene_(scene), materials_(materials), brdf_(brdf), skin_m_(skin_m) {}
+    : mesh_(mesh), scene_(scene), textures_(textures), brdf_(brdf), skin_m_(skin_m) {}
 
 void MirrorRays::set_frame(const Surroundings& around, const VertexLight& light, const glm::vec3& exposure) {
   around_ = &around;
@@ -71,7 +71,7 @@ void MirrorRays::find_hits(Batch& batch, Coherence coherence) const {
 bool MirrorRays::meet(Walk& walk, const RayStream& hits, std::size_t at, MirrorRay& ray, int bounce) const {
   const std::uint32_t triangle = hits.triangle[at], *corner = &mesh_.indices[3 * static_cast<std::size_t>(triangle)];
   const glm::vec3 w(1 - hits.u[at] - hits.v[at], hits.u[at], hits.v[at]);
-  const auto& m = materials_.materials[mesh_.triangle_material[triangle]];
+  const auto m = textures_.material_at(triangle, {hits.u[at], hits.v[at]}, 0.5f * walk.spread * hits.far[at]);
   glm::vec3 normal(0), color(0), irradiance_over_pi(0);
   for (int k = 0; k < 3; ++k) {
     const Vertex& vertex = mesh_.vertices[corner[k]];

@@ -7,6 +7,7 @@
 
 #include "render/cpu/mirror/brdf_table.hpp"
 #include "render/cpu/mirror/surroundings.hpp"
+#include "render/cpu/surface/surface_textures.hpp"
 #include "render/mesh/mesh.hpp"
 #include "render/rays/ray_scene.hpp"
 #include "render/surface_material.hpp"
@@ -31,7 +32,7 @@ class MirrorRays {
  public:
   /// Keeps references. `skin_m`: back faces closer than that are the surface
   /// that the ray starts from, whose smoothed normals let it dip below its triangles.
-  MirrorRays(const Mesh& mesh, const RayScene& scene, const SurfaceMaterials& materials, const BrdfTable& brdf, float skin_m);
+  MirrorRays(const Mesh& mesh, const RayScene& scene, const SurfaceTextures& textures, const BrdfTable& brdf, float skin_m);
 
   void set_frame(const Surroundings& around, const VertexLight& light, const glm::vec3& exposure);
 
@@ -53,7 +54,7 @@ class MirrorRays {
 
   const Mesh& mesh_;
   const RayScene& scene_;
-  const SurfaceMaterials& materials_;
+  const SurfaceTextures& textures_;
   const BrdfTable& brdf_;
   float skin_m_;
   const Surroundings* around_ = nullptr;

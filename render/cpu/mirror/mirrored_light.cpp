@@ -50,21 +50,21 @@ MirroredLight::MirroredLight(const SurfaceMaterials& materials, const MirrorRays
   for (int looker = 0; looker < kLookers; ++looker) look_points_.push_back(LobePoints::dealt(kLookers, kLookers, looker));
 }
 
-bool MirroredLight::mirrors(const SurfacePoint& point) const {
-  const auto& m = materials_.materials[point.material];
+bool MirroredLight::mirrors(const Frame& frame, const SurfacePoint& point) const {
+  const auto& m = frame.surface.material_at(point, materials_);
   return m.base_color_metallic.w > 0 || m.dielectric.x > 0;
 }
 
-bool MirroredLight::is_rough(const SurfacePoint& point) const {
-  return materials_.materials[point.material].emissive_roughness.w >= shading::kMinHighlightRoughness;
+bool MirroredLight::is_rough(const Frame& frame, const SurfacePoint& point) const {
+  return frame.surface.material_at(point, materials_).emissive_roughness.w >= shading::kMinHighlightRoughness;
 }
 
 /// How many pixels share a lobe's rays. The parts of an outline's pixel share with nobody, and take half of the
 /// rays; of a wide lobe, much of which lies below a surface that is seen edge on, they take all.
 int MirroredLight::sharers_of(const Frame& frame, std::size_t index) const {
   const SurfacePoint& point = frame.surface.points[index];
-  if (!is_rough(point) || lobe_rays_ == 0) return 1;
-  const float roughness = materials_.materials[point.material].emissive_roughness.w;
+  if (!is_rough(frame, point) || lobe_rays_ == 0) return 1;
+  const float roughness = frame.surface.material_at(point, materials_).emissive_roughness.w;
   if (point.coverage < 1) return roughness * roughness < kWideLobe ? 2 : 1;
   const float footprint = glm::length(footprint_x_[index]) + glm::length(footprint_y_[index]);
   const float share = footprint / (roughness * roughness);
@@ -74,23 +74,23 @@ int MirroredLight::sharers_of(const Frame& frame, std::size_t index) const {
 
 Lobe MirroredLight::lobe_of(const Frame& frame, std::size_t index) const {
   const SurfacePoint& point = frame.surface.points[index];
-  const float roughness = materials_.materials[point.material].emissive_roughness.w;
+  const float roughness = frame.surface.material_at(point, materials_).emissive_roughness.w;
   // Without rays of its own the whole lobe is read from the prefiltered probe, in the mirror direction.
   return {point.to_viewer, point.normal, footprint_x_[index], footprint_y_[index], lobe_rays_ > 0 ? roughness * roughness : 0};
 }
 
 /// How rough the surface is whose whole lobe is as wide as what one of the point's rays stands for.
-float MirroredLight::ray_roughness(const SurfacePoint& point) const {
-  const float roughness = materials_.materials[point.material].emissive_roughness.w;
+float MirroredLight::ray_roughness(const Frame& frame, const SurfacePoint& point) const {
+  const float roughness = frame.surface.material_at(point, materials_).emissive_roughness.w;
   if (lobe_rays_ == 0) return roughness;
-  const int lobe_size = is_rough(point) ? lobe_rays_ : kPolishedRays;
+  const int lobe_size = is_rough(frame, point) ? lobe_rays_ : kPolishedRays;
   return std::pow(static_cast<float>(lobe_size), -0.25f) * roughness;
 }
 
 /// The point's own part of its lobe. An outline's pixel needs no more than a ray of a polished one: its samples are the rays.
 const LobePoints& MirroredLight::points_of(const Frame& frame, std::size_t index) const {
   const SurfacePoint& point = frame.surface.points[index];
-  if (!is_rough(point)) return point.coverage < 1 ? single_point_ : polished_points_;
+  if (!is_rough(frame, point)) return point.coverage < 1 ? single_point_ : polished_points_;
   const int sharers = sharers_of(frame, index);
   const PixelRect& rect = frame.surface.rect;
   const int x = rect.x + static_cast<int>(point.pixel) % rect.width, y = rect.y + static_cast<int>(point.pixel) / rect.width;
@@ -102,7 +102,7 @@ const LobePoints& MirroredLight::points_of(const Frame& frame, std::size_t index
 /// Where the point looks whether the object is mirrored.
 const LobePoints& MirroredLight::look_point_of(const Frame& frame, std::size_t index) const {
   const SurfacePoint& point = frame.surface.points[index];
-  if (!is_rough(point)) return single_point_;
+  if (!is_rough(frame, point)) return single_point_;
   const PixelRect& rect = frame.surface.rect;
   const int x = rect.x + static_cast<int>(point.pixel) % rect.width, y = rect.y + static_cast<int>(point.pixel) / rect.width;
   return look_points_[static_cast<std::size_t>((x & (kLookersAcross - 1)) + kLookersAcross * (y & (kLookersAcross - 1)))];
@@ -154,7 +154,7 @@ void MirroredLight::look_for_object(const Frame& frame) {
     thread_local std::vector<std::size_t> of;
     rays.clear(), of.clear();
     for (std::size_t i = first; i < last; ++i) {
-      if (!mirrors(points[i])) continue;
+      if (!mirrors(frame, points[i])) continue;
       directions.find(lobe_of(frame, i), look_point_of(frame, i), 1);
       rays.push_back({rays_.start(points[i].position_m, points[i].normal), directions.direction(0), 0, 0, 0});
       of.push_back(points[i].pixel);
@@ -176,7 +176,7 @@ void MirroredLight::look_for_object(const Frame& frame) {
 
 /// Adds what the rays see to the sums of their points.
 void MirroredLight::add_seen(const Frame& frame, const PointRays& seen) {
-  const auto with_lights = [&](const SurfacePoint& point) { return !(frame.has_highlights && is_rough(point)); };
+  const auto with_lights = [&](const SurfacePoint& point) { return !(frame.has_highlights && is_rough(frame, point)); };
   const auto find = [&](std::size_t i) -> Surroundings::Target {
     const MirrorRay& ray = seen.rays[i];
     if (ray.meets_object) return {};
@@ -199,12 +199,12 @@ void MirroredLight::trace(const Frame& frame, std::size_t first, std::size_t las
   for (std::size_t i = first; i < last; ++i) {
     const SurfacePoint& point = frame.surface.points[i];
     sums_[i] = {};
-    if (!mirrors(point)) continue;
+    if (!mirrors(frame, point)) continue;
     const LobePoints& own = points_of(frame, i);
     const Lobe lobe = lobe_of(frame, i);
     directions.find(lobe, own, own.number.size());
     const glm::vec3 start_m = rays_.start(point.position_m, point.normal);
-    const float roughness = ray_roughness(point);
+    const float roughness = ray_roughness(frame, point);
     const float spread = roughness * roughness + 0.25f * glm::length(lobe.footprint_x + lobe.footprint_y);
     auto& [rays, of] = lobe_rays_ > 0 && near_hit_[point.pixel] ? near_object : free;
     for (std::size_t k = 0; k < own.number.size(); ++k) {
@@ -227,7 +227,7 @@ MirroredLight::Sum MirroredLight::sum_around(const Frame& frame, std::size_t ind
   const std::vector<std::int32_t>& firsts = frame.surface.first;
   const SurfacePoint& point = points[index];
   const auto& says = sharers == 8 ? kSaysOf8 : sharers == 4 ? kSaysOf4 : kSaysOf2;
-  const float roughness = materials_.materials[point.material].emissive_roughness.w;
+  const float roughness = frame.surface.material_at(point, materials_).emissive_roughness.w;
   const float reach = (sharers == 2 ? kSharedTurnOf2 : kSharedTurn) * roughness * roughness;
   const int x = static_cast<int>(point.pixel) % rect.width, y = static_cast<int>(point.pixel) / rect.width;
   Sum sum;
@@ -249,7 +249,7 @@ MirroredLight::Sum MirroredLight::sum_around(const Frame& frame, std::size_t ind
 glm::vec3 MirroredLight::shared(const Frame& frame, std::size_t index) const {
   const std::vector<SurfacePoint>& points = frame.surface.points;
   const SurfacePoint& point = points[index];
-  const auto& m = materials_.materials[point.material];
+  const auto& m = frame.surface.material_at(point, materials_);
   const int sharers = sharers_of(frame, index);
   Sum sum;
   if (sharers == 1 || point.coverage < 1) {
@@ -258,7 +258,7 @@ glm::vec3 MirroredLight::shared(const Frame& frame, std::size_t index) const {
     sum = sum_around(frame, index, sharers);
   }
   if (sum.weight > 0) return sum.light / sum.weight;
-  return frame.around.probe_radiance(mirror_[index], m.emissive_roughness.w, !(frame.has_highlights && is_rough(point)));
+  return frame.around.probe_radiance(mirror_[index], m.emissive_roughness.w, !(frame.has_highlights && is_rough(frame, point)));
 }
 
 std::span<const glm::vec3> MirroredLight::find(const VisibleSurface& surface, const Surroundings& around, bool has_highlights) {
@@ -271,7 +271,7 @@ std::span<const glm::vec3> MirroredLight::find(const VisibleSurface& surface, co
   for_chunks(surface.points.size(), [&](std::size_t first, std::size_t last) { trace(frame, first, last); });
   for_chunks(surface.points.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
-      if (mirrors(surface.points[i])) result_[i] = shared(frame, i);
+      if (mirrors(frame, surface.points[i])) result_[i] = shared(frame, i);
   });
   return result_;
 }

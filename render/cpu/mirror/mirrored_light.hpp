@@ -44,13 +44,13 @@ class MirroredLight {
     std::vector<Of> of;
   };
 
-  bool mirrors(const SurfacePoint& point) const;
-  bool is_rough(const SurfacePoint& point) const;
+  bool mirrors(const Frame& frame, const SurfacePoint& point) const;
+  bool is_rough(const Frame& frame, const SurfacePoint& point) const;
   int sharers_of(const Frame& frame, std::size_t index) const;
   const LobePoints& points_of(const Frame& frame, std::size_t index) const;
   const LobePoints& look_point_of(const Frame& frame, std::size_t index) const;
   Lobe lobe_of(const Frame& frame, std::size_t index) const;
-  float ray_roughness(const SurfacePoint& point) const;
+  float ray_roughness(const Frame& frame, const SurfacePoint& point) const;
   void find_mirror_directions(const Frame& frame);
   void find_footprints(const Frame& frame, std::size_t index);
   void look_for_object(const Frame& frame);

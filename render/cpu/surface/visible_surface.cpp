@@ -279,8 +279,8 @@ void SurfaceFinder::put_band(const Frame& frame, int band, std::vector<SurfacePo
   });
 }
 
-const VisibleSurface& SurfaceFinder::find(const FrameView& view, const DistortionLimit& limit, const PixelRays& pixel_rays,
-                                          const PixelRect& rect, std::span<const glm::vec3> irradiance_over_pi) {
+VisibleSurface& SurfaceFinder::find(const FrameView& view, const DistortionLimit& limit, const PixelRays& pixel_rays,
+                                    const PixelRect& rect, std::span<const glm::vec3> irradiance_over_pi) {
   const Frame frame{view,
                     limit,
                     pixel_rays,

@@ -12,6 +12,7 @@
 #include "render/frame_view.hpp"
 #include "render/mesh/bounds.hpp"
 #include "render/rays/ray_scene.hpp"
+#include "render/surface_material.hpp"
 
 namespace catchlight::render {
 
@@ -28,13 +29,31 @@ struct SurfacePoint {
   float coverage = 1;       ///< share of the pixel's samples
   std::uint32_t pixel = 0;  ///< row-major in VisibleSurface::rect
   std::uint16_t material = 0;
-  bool is_back = false;  ///< seen from the side where the corners wind clockwise
+  bool is_back = false;        ///< seen from the side where the corners wind clockwise
+  std::int32_t textured = -1;  ///< in VisibleSurface::textured; -1: all of its material is the same
+};
+
+/// What textures make of a point.
+struct TexturedSurface {
+  shader_interface::SurfaceMaterial material;
+  glm::vec3 smooth_normal{0};  ///< before a normal map bends it
+  float occlusion = 1;         ///< share of the smooth light that arrives there
+  bool is_bent = false;        ///< by a normal map
 };
 
 struct VisibleSurface {
-  PixelRect rect;                    ///< pixels of the frame
-  std::vector<SurfacePoint> points;  ///< pixel after pixel
-  std::vector<std::int32_t> first;   ///< a pixel's first point; -1: it has none
+  PixelRect rect;                         ///< pixels of the frame
+  std::vector<SurfacePoint> points;       ///< pixel after pixel
+  std::vector<std::int32_t> first;        ///< a pixel's first point; -1: it has none
+  std::vector<TexturedSurface> textured;  ///< of those points that have textures
+
+  const TexturedSurface* textured_at(const SurfacePoint& point) const {
+    return point.textured < 0 ? nullptr : &textured[static_cast<std::size_t>(point.textured)];
+  }
+  const shader_interface::SurfaceMaterial& material_at(const SurfacePoint& point, const SurfaceMaterials& materials) const {
+    const TexturedSurface* own = textured_at(point);
+    return own ? own->material : materials.materials[point.material];
+  }
 };
 
 class SurfaceFinder {
@@ -44,8 +63,8 @@ class SurfaceFinder {
   SurfaceFinder(const Mesh& mesh, const RayScene& rays, int samples, std::vector<char> is_polished);
 
   /// What the pixels of `rect` show. `irradiance_over_pi`: a value a vertex.
-  const VisibleSurface& find(const FrameView& view, const DistortionLimit& limit, const PixelRays& pixel_rays,
-                             const PixelRect& rect, std::span<const glm::vec3> irradiance_over_pi);
+  VisibleSurface& find(const FrameView& view, const DistortionLimit& limit, const PixelRays& pixel_rays, const PixelRect& rect,
+                       std::span<const glm::vec3> irradiance_over_pi);
 
  private:
   struct Frame;

@@ -41,6 +41,7 @@ struct Room {
   Mesh mesh;
   RayScene rays;
   SurfaceMaterials materials;
+  SurfaceTextures textures{mesh, materials};
   BrdfTable brdf;
   CubeTexture probe;
   Surroundings around{probe, probe, glm::vec3(0)};
@@ -53,7 +54,7 @@ struct Room {
         materials(surface_materials(mesh)),
         probe(constant_probe(radiance)),
         irradiance_over_pi(mesh.vertices.size(), exit),
-        mirror(mesh, rays, materials, brdf, 0.01f * bounds_of(mesh).diagonal_m()) {
+        mirror(mesh, rays, textures, brdf, 0.01f * bounds_of(mesh).diagonal_m()) {
     around.set_view({}, {}, nullptr, nullptr);
     mirror.set_frame(around, {irradiance_over_pi, direct}, glm::vec3(1));
   }
