@@ -65,10 +65,16 @@ Recording without_glare(const std::string& location) {
   return recording;
 }
 
+SessionOptions with_layers() {
+  SessionOptions options;
+  options.range = {kFrame, kFrame + 1};
+  options.wants_layers = true;
+  return options;
+}
+
 class Studio {
  public:
-  explicit Studio(const std::string& location)
-      : session_(without_glare(location), {.range = {kFrame, kFrame + 1}, .wants_layers = true}, log_) {
+  explicit Studio(const std::string& location) : session_(without_glare(location), with_layers(), log_) {
     session_.prepare();
     do job_ = session_.decode().value();
     while (session_.track(*job_), job_->is_before_range);
