@@ -58,9 +58,8 @@ std::vector<Parameter> object_parameters() {
   using enum Scale;
   return {
       {"object.mesh", "", mesh,
-       "The object is read from this file, in metres: glTF 2.0 (`.glb`, `.gltf`), OBJ or PLY; or it is a test object that stands "
-       "on "
-       "the tag: `sphere`, a white ball, or `chrome-and-grey`, a mirror ball beside one of 18 % grey.",
+       "The object is read from this file, in metres: glTF 2.0 (`.glb`, `.gltf`), OBJ or PLY; or it is a white shape that stands "
+       "on the tag, such as `sphere` or `torus`, or `chrome-and-grey`, a mirror ball beside one of 18 % grey.",
        PathKind{[](auto& s, std::size_t i) { return &s.objects[i].mesh; },
                 {render::kTestObjects.begin(), render::kTestObjects.end()}}},
       {"object.tag_from_object.translation_m", "m", mesh, "The object's origin is at this place in the tag's frame.",

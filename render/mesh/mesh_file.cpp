@@ -53,7 +53,7 @@ void drop_degenerate_triangles(const std::string& path, ImportedMesh& imported, 
 
 Mesh load_mesh(const std::string& path, const WarningHandler& warn) {
   if (!std::ifstream(path))
-    throw Error(path + ": cannot be opened; expected a mesh (glTF, OBJ or PLY), or sphere or chrome-and-grey");
+    throw Error(path + ": cannot be opened; expected a mesh (glTF, OBJ or PLY), or a shape such as sphere, cube or torus");
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
   ImportedMesh imported;
