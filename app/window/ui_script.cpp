@@ -78,18 +78,14 @@ std::vector<ScriptCommand> read_ui_script(const std::string& path) {
 UiScript::UiScript(std::string path, std::vector<ScriptCommand> commands)
     : path_(std::move(path)), commands_(std::move(commands)) {}
 
-void UiScript::fail(const ScriptCommand& command, const std::string& why) const {
-  throw Error(path_ + ":" + std::to_string(command.line) + ": " + why);
-}
-
-GuiItems::Rect UiScript::rect_of(const ScriptTarget& target, const ScriptCommand& command, const std::string& control) const {
+GuiItems::Rect UiScript::rect_of(const ScriptTarget& target, const std::string& control) const {
   const auto rect = target.items().find(control);
-  if (!rect) fail(command, "there is no control '" + control + "' in the window now");
+  if (!rect) throw Error("there is no control '" + control + "' in the window now");
   return *rect;
 }
 
-ImVec2 UiScript::middle_of(const ScriptTarget& target, const ScriptCommand& command, const std::string& control) const {
-  const GuiItems::Rect rect = rect_of(target, command, control);
+ImVec2 UiScript::middle_of(const ScriptTarget& target, const std::string& control) const {
+  const GuiItems::Rect rect = rect_of(target, control);
   return {0.5f * (rect.min.x + rect.max.x), 0.5f * (rect.min.y + rect.max.y)};
 }
 
@@ -114,7 +110,7 @@ void UiScript::drag(const ImVec2& from, const ImVec2& to) {
 
 float UiScript::number(const ScriptCommand& command, std::size_t word) const {
   const auto value = real_from_text(command.words[word]);
-  if (!value) fail(command, "'" + command.words[word] + "' is no number");
+  if (!value) throw Error("'" + command.words[word] + "' is no number");
   return static_cast<float>(*value);
 }
 
@@ -129,15 +125,15 @@ void UiScript::begin(ScriptTarget& target, const ScriptCommand& command) {
   if (verb == "picture") return target.picture(words[0]);
   if (verb == "save") return target.save(after(command, 0));
   if (verb == "quit") return target.quit();
-  if (verb == "click") return click(middle_of(target, command, after(command, 0)));
-  if (verb == "wheel") return turn_wheel(middle_of(target, command, words[0]), number(command, 1));
+  if (verb == "click") return click(middle_of(target, after(command, 0)));
+  if (verb == "wheel") return turn_wheel(middle_of(target, words[0]), number(command, 1));
   if (verb == "drag") return drag_along(target, command);
   if (verb == "type") return type(after(command, 0));
   if (verb == "key") return press(command);
   if (verb == "hold") return hold(command);
   if (verb == "release") return release();
   if (verb == "expect" && !holds(target, command))
-    fail(command, words[0] + " is " + target.value_of(words[0]) + ", expected " + after(command, 1));
+    throw Error(words[0] + " is " + target.value_of(words[0]) + ", expected " + after(command, 1));
 }
 
 /// Whether what the command names has the value that it says.
@@ -166,7 +162,7 @@ void UiScript::drag_along(const ScriptTarget& target, const ScriptCommand& comma
   if (words.size() >= 4 && real_from_text(words[0]))
     return drag({number(command, 0), number(command, 1)}, {number(command, 2), number(command, 3)});
   const std::size_t from = words.size() - 2, to = words.size() - 1;
-  const GuiItems::Rect rect = rect_of(target, command, joined(words, 0, from));
+  const GuiItems::Rect rect = rect_of(target, joined(words, 0, from));
   const float y = 0.5f * (rect.min.y + rect.max.y), width = rect.max.x - rect.min.x;
   drag({rect.min.x + number(command, from) * width, y}, {rect.min.x + number(command, to) * width, y});
 }
@@ -182,7 +178,7 @@ void UiScript::press(const ScriptCommand& command) {
   for (; name.starts_with("ctrl+"); name.erase(0, 5)) with_ctrl = true;
   for (; name.starts_with("shift+"); name.erase(0, 6)) with_shift = true;
   const auto key = key_number(name);
-  if (!key) fail(command, "there is no key '" + name + "'");
+  if (!key) throw Error("there is no key '" + name + "'");
   gestures_.push_back([=](ImGuiIO& io) { io.KeyCtrl = with_ctrl, io.KeyShift = with_shift, io.KeysDown[*key] = true; });
   gestures_.push_back([=](ImGuiIO& io) { io.KeyCtrl = io.KeyShift = io.KeysDown[*key] = false; });
 }
@@ -193,7 +189,7 @@ void UiScript::hold(const ScriptCommand& command) {
   if (name == "ctrl") return gestures_.push_back([](ImGuiIO& io) { io.KeyCtrl = true; });
   if (name == "alt") return gestures_.push_back([](ImGuiIO& io) { io.KeyAlt = true; });
   const auto key = key_number(name);
-  if (!key) fail(command, "there is no key '" + name + "'");
+  if (!key) throw Error("there is no key '" + name + "'");
   gestures_.push_back([=](ImGuiIO& io) { io.KeysDown[*key] = true; });
 }
 
@@ -214,7 +210,11 @@ void UiScript::before_frame(ScriptTarget& target) {
   const ScriptCommand& command = commands_[next_];
   if (command.verb == "wait" && !is_reached(target, command)) return;
   ++next_;
-  begin(target, command);
+  try {
+    begin(target, command);
+  } catch (const Error& error) {
+    throw Error(path_ + ":" + std::to_string(command.line) + ": " + error.what());
+  }
 }
 
 }  // namespace catchlight::app

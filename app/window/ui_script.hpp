@@ -60,8 +60,8 @@ class UiScript {
   bool is_reached(const ScriptTarget& target, const ScriptCommand& command) const;
   bool holds(const ScriptTarget& target, const ScriptCommand& command) const;
   float number(const ScriptCommand& command, std::size_t word) const;
-  GuiItems::Rect rect_of(const ScriptTarget& target, const ScriptCommand& command, const std::string& control) const;
-  ImVec2 middle_of(const ScriptTarget& target, const ScriptCommand& command, const std::string& control) const;
+  GuiItems::Rect rect_of(const ScriptTarget& target, const std::string& control) const;
+  ImVec2 middle_of(const ScriptTarget& target, const std::string& control) const;
   void click(const ImVec2& at);
   void drag(const ImVec2& from, const ImVec2& to);
   void drag_along(const ScriptTarget& target, const ScriptCommand& command);
@@ -70,7 +70,6 @@ class UiScript {
   void press(const ScriptCommand& command);
   void hold(const ScriptCommand& command);
   void release();
-  [[noreturn]] void fail(const ScriptCommand& command, const std::string& why) const;
 
   std::string path_;
   std::vector<ScriptCommand> commands_;

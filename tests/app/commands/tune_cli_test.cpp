@@ -138,6 +138,9 @@ TEST_F(TuneCli, SaysWhereAScriptFails) {
   EXPECT_THAT(missing.error, HasSubstr("script.txt:1: there is no control 'nothing of that name'"));
   const CommandResult other = run("expect probe.ev 3\n");
   EXPECT_THAT(other.error, HasSubstr("script.txt:1: probe.ev is 0, expected 3"));
+  const CommandResult refused = run("wait\nset exposure.ev hello\n");
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.error, HasSubstr("script.txt:2: --exposure.ev is \"hello\"; expected a number from -30 to 30 EV"));
 }
 
 TEST_F(TuneCli, ClosesWhileItTracks) {
