@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <optional>
+#include <string_view>
 
 #include "app/settings/parameters.hpp"
 #include "app/window/panels/effect_switches.hpp"
@@ -122,6 +123,17 @@ bool is_as_in(const SceneSettings& file, const SceneSettings& now, const Paramet
   return parameter_text(file, parameter, index) == parameter_text(now, parameter, index);
 }
 
+/// What stands before a control: the key within its section, with the element's number where there are several, without the
+/// names of frames, which are in the tooltip and would push the words that differ out of the column.
+std::string row_label(const std::string& name) {
+  const std::size_t bracket = name.find('['), dot = name.find('.');
+  const std::string element = bracket < dot ? name.substr(bracket, dot - bracket) + ' ' : "";
+  std::string key = name.substr(dot + 1);
+  for (const std::string_view frames : {"tag_from_object.", "tag_from_this."})
+    if (key.starts_with(frames)) key.erase(0, frames.size());
+  return element + key;
+}
+
 /// Behind a name, in so much room: a clock where a change takes more than a moment, with what the last one took; bright while
 /// that is being redone.
 void draw_cost(ChangeCost cost, const PlayerStatus& status, float room) {
@@ -179,8 +191,7 @@ void ParameterControls::draw_row(const Parameter& parameter, std::size_t index, 
     }
   };
   ImGui::AlignTextToFramePadding();
-  ImGui::TextColored(is_changed ? ImVec4(0.95f, 0.70f, 0.30f, 1) : ImVec4(0.80f, 0.80f, 0.80f, 1), "%s",
-                     name.substr(name.find('.') + 1).c_str());
+  ImGui::TextColored(is_changed ? ImVec4(0.95f, 0.70f, 0.30f, 1) : ImVec4(0.80f, 0.80f, 0.80f, 1), "%s", row_label(name).c_str());
   const float name_width = ImGui::GetItemRectSize().x;
   tooltip(name + "\n" + parameter.help + "\n" + expected_text(parameter) + "\nA change costs: " + name_of(parameter.cost) + ".");
   const float column = ImGui::GetContentRegionAvail().x * 0.44f;
