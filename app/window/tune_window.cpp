@@ -5,6 +5,7 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -24,20 +25,21 @@
 namespace catchlight::app {
 namespace {
 
-constexpr const char* kHelp =
-    "space            play, pause\n"
-    "left, right      one frame back, on\n"
-    "home, end        first, last frame\n"
-    "[ and ]          mark the range that plays\n"
-    "left button      moves the object; with shift turns, with ctrl scales it\n"
-    "l + left button  turns the probe by its shadow (alt does, too)\n"
-    "w                white balance: then click something white or grey\n"
-    "wheel            zoom; middle button moves the picture\n"
-    "f and 1          the whole picture, pixel by pixel\n"
-    "a and b          flip to settings A, B; with shift, keep them\n"
-    "ctrl+z, ctrl+y   undo, redo\n"
-    "ctrl+s           save the scene file\n"
-    "f1               these keys";
+constexpr std::array<std::array<const char*, 2>, 13> kHelp{{
+    {"space", "play, pause"},
+    {"left, right", "one frame back, on"},
+    {"home, end", "first, last frame"},
+    {"[ and ]", "mark the range that plays"},
+    {"left button", "moves the object; with shift turns, with ctrl scales it"},
+    {"l + left button", "turns the probe by its shadow (alt does, too)"},
+    {"w", "white balance: then click something white or grey"},
+    {"wheel", "zoom; middle button moves the picture"},
+    {"f and 1", "the whole picture, pixel by pixel"},
+    {"a and b", "flip to settings A, B; with shift, keep them"},
+    {"ctrl+z, ctrl+y", "undo, redo"},
+    {"ctrl+s", "save the scene file"},
+    {"f1", "these keys"},
+}};
 
 void write_picture(const std::string& path, const RgbPicture& picture) {
   const cv::Mat rgb(picture.height, picture.width, CV_8UC3, const_cast<unsigned char*>(picture.rgb.data()));
@@ -312,7 +314,11 @@ void TuneWindow::draw_bottom() {
 
 void TuneWindow::draw_questions() {
   if (shows_help_ && ImGui::Begin("Keys", &shows_help_, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings))
-    ImGui::TextUnformatted(kHelp);
+    for (const auto& [key, does] : kHelp) {
+      ImGui::TextUnformatted(key);
+      ImGui::SameLine(ImGui::GetFontSize() * 10);
+      ImGui::TextUnformatted(does);
+    }
   if (shows_help_) ImGui::End();
   if (!asks_to_leave_) return;
   ImGui::OpenPopup("Unsaved changes");
