@@ -102,6 +102,7 @@ std::string TuneWindow::value_of(const std::string& key) const {
   if (key == "error") return player_ ? player_->status().error.value_or("none") : "none";
   if (key == "frame") return std::to_string(is_live() && shown_ ? shown_->number : playhead_.position());
   if (key == "message") return message();
+  if (key == "bake") return !shown_ || shown_->wish == 0 ? "none" : shown_->rung == Rung::rough ? "rough" : "full";
   if (key == "tag") return shown_ && shown_->track.found ? "found" : "lost";
   if (is_live())
     if (const auto value = live_panel_.value_of(key, player_->live()->status())) return *value;

@@ -209,10 +209,11 @@ void ShotPlayer::render(FrameJob& job, const std::shared_ptr<DrawnFrame>& drawn)
   }
 }
 
-/// While something moves that bakes are made from, rough ones are enough, until it rests.
+/// While something moves that bakes are made from, rough ones are enough, until it rests. Live footage always moves: there, when
+/// a frame passes without a new wish.
 Rung ShotPlayer::apply(const FrameWish& wish) {
   constexpr double kSmooth_ms = 1000.0 / 15;
-  is_rough_ = wish.moves && (is_rough_ || session_->renderer().builder().needs_bake(wish.settings));
+  is_rough_ = wish.moves && !is_repeated_ && (is_rough_ || session_->renderer().builder().needs_bake(wish.settings));
   const bool is_quick = wish.moves && full_ms_ > kSmooth_ms;
   session_->apply(is_quick ? quicker(wish.settings) : wish.settings, is_rough_ ? BakeFineness::rough : BakeFineness::full);
   return is_rough_ ? Rung::rough : is_quick ? Rung::quick : Rung::full;
@@ -295,7 +296,8 @@ std::optional<FrameWish> ShotPlayer::next_wish(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
     const bool goes_on = live_ && live_->goes_on() && wish_number_ != 0;
     if (changed_.empty() && !goes_on) wished_.wait_for(lock, stop, kWatchInterval, [&] { return next_.has_value(); });
-    if (!next_ && changed_.empty() && goes_on) return wish_;
+    is_repeated_ = !next_ && changed_.empty() && goes_on;
+    if (is_repeated_) return wish_;
     if (!next_ && changed_.empty()) continue;
     wish_number_ = next_ ? last_wish_ : ++last_wish_;
     return next_ ? std::exchange(next_, std::nullopt) : wish_;

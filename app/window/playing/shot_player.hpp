@@ -154,8 +154,9 @@ class ShotPlayer {
   // The player thread's.
   std::unique_ptr<Session> session_;
   FrameLightMaker light_maker_;
-  bool tracks_anew_ = true;  ///< since the pose errors were noted
-  FrameWish wish_;           ///< the last one
+  bool tracks_anew_ = true;   ///< since the pose errors were noted
+  bool is_repeated_ = false;  ///< wish_ is fulfilled once more, by the next frame of live footage
+  FrameWish wish_;            ///< the last one
   std::uint64_t wish_number_ = 0;
   bool is_rough_ = false;  ///< the session's bake
   int drawn_version_ = 0;  ///< of the scene that was drawn last

@@ -59,7 +59,7 @@ const std::string kTransport = "-c:v mpeg2video -g 12 -f mpegts";
 TEST_F(TuneLive, ShowsAStreamAndRecordsATakeThatOverlayDraws) {
   const std::string address = "udp://127.0.0.1:" + std::to_string(free_port(SOCK_DGRAM));
   const CommandResult result = run(address, feed(kTransport, address + "?pkt_size=1316"),
-                                   "wait source live\nwait\nexpect tag found\nexpect latency_ms > 0\n"
+                                   "wait source live\nwait\nexpect tag found\nexpect latency_ms > 0\nwait bake full\n"
                                    "set probe.yaw_deg 40\nwait\nclick undo\nexpect probe.yaw_deg 0\nset probe.ev 1\nwait\n"
                                    "expect take none\nclick take folder\nkey ctrl+a\ntype take\nclick record\n"
                                    "wait take recording\nwait take_frames > 5\nclick record\nwait take recorded\n"
