@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "catchlight/util/text.hpp"
+#include "render/mesh/base_color.hpp"
 #include "render/mesh/bounds.hpp"
 #include "render/mesh/mesh_file.hpp"
 #include "render/mesh/test_objects.hpp"
@@ -33,7 +34,11 @@ glm::dmat4 scene_from(const SceneSettings& settings, const SceneSettings::Object
 render::Mesh placed_object(const SceneSettings& settings, const SceneSettings::Object& object, const WarningHandler& warn) {
   const glm::dmat4 scene_from_object = scene_from(settings, object);
   const std::optional<render::Mesh> shape = render::test_object(object.mesh, settings.tag.size_m);
-  if (!shape) return render::transformed(render::load_mesh(settings.resolve(object.mesh), warn), scene_from_object);
+  if (!shape) {
+    render::Mesh mesh = render::load_mesh(settings.resolve(object.mesh), warn);
+    render::fold_base_color_textures(mesh);
+    return render::transformed(mesh, scene_from_object);
+  }
   render::Mesh placed = render::transformed(*shape, scene_from_object);
   const float lift_m = static_cast<float>(scene_from_object[3].z) - render::bounds_of(placed).min_m.z;
   for (render::Vertex& vertex : placed.vertices) vertex.position_m.z += lift_m;

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <string_view>
 
 #include "catchlight/error.hpp"
@@ -18,9 +19,9 @@ bool starts_with(std::span<const std::uint8_t> bytes, std::string_view text) {
                                                    [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
 }
 
-StoredPicture decode_stored(std::span<const std::uint8_t> file) {
-  if (starts_with(file, "\x89PNG")) return decode_png(file);
-  if (starts_with(file, "\xff\xd8")) return decode_jpeg(file);
+StoredPicture decode_stored(std::span<const std::uint8_t> file, const PictureWish& wish) {
+  if (starts_with(file, "\x89PNG")) return decode_png(file, wish);
+  if (starts_with(file, "\xff\xd8")) return decode_jpeg(file, wish);
   if (starts_with(file, "II*") || starts_with(file, "MM")) return decode_tiff(file);
   throw Error("is neither PNG nor JPEG nor TIFF");
 }
@@ -39,10 +40,11 @@ cv::Mat upright(const cv::Mat& picture, int orientation) {
 cv::Mat upper_bytes(const cv::Mat& picture) {
   if (picture.depth() == CV_8U) return picture;
   if (picture.depth() != CV_16U) throw Error("has floats; expected 8 or 16 bits");
-  cv::Mat bytes(picture.size(), CV_8UC3);
+  cv::Mat bytes(picture.size(), CV_8UC(picture.channels()));
+  const std::size_t row_codes = std::size_t(picture.channels()) * picture.cols;
   for (int y = 0; y < picture.rows; ++y)
-    std::transform(picture.ptr<std::uint16_t>(y), picture.ptr<std::uint16_t>(y) + 3 * std::size_t(picture.cols),
-                   bytes.ptr<std::uint8_t>(y), [](std::uint16_t code) { return static_cast<std::uint8_t>(code >> 8); });
+    std::transform(picture.ptr<std::uint16_t>(y), picture.ptr<std::uint16_t>(y) + row_codes, bytes.ptr<std::uint8_t>(y),
+                   [](std::uint16_t code) { return static_cast<std::uint8_t>(code >> 8); });
   return bytes;
 }
 
@@ -53,9 +55,21 @@ void check_picture_size(double width, double height) {
 }
 
 cv::Mat decode_picture(std::span<const std::uint8_t> file, PictureDepth depth) {
-  const StoredPicture stored = decode_stored(file);
+  const StoredPicture stored = decode_stored(file, {});
   const cv::Mat picture = upright(stored.pixels, stored.orientation);
   return depth == PictureDepth::stored ? picture : upper_bytes(picture);
+}
+
+ClearPicture decode_clear_picture(std::span<const std::uint8_t> file, int max_side) {
+  const StoredPicture stored = decode_stored(file, {.with_opacity = true, .max_side = max_side});
+  cv::Mat picture = upper_bytes(upright(stored.pixels, stored.orientation));
+  const double scale = static_cast<double>(max_side) / std::max(picture.cols, picture.rows);
+  if (scale < 1) {
+    const auto side = [scale](int length) { return std::max(static_cast<int>(scale * length), 1); };
+    cv::resize(picture, picture, cv::Size(side(picture.cols), side(picture.rows)), 0, 0, cv::INTER_AREA);
+  }
+  if (picture.channels() == 3) cv::cvtColor(picture, picture, cv::COLOR_BGR2BGRA);
+  return {picture, stored.file_size};
 }
 
 cv::Mat read_picture(const std::string& path, PictureDepth depth) {

@@ -19,6 +19,16 @@ enum class PictureDepth {
 /// damaged or cut off, over 2^30 pixels.
 cv::Mat decode_picture(std::span<const std::uint8_t> file, PictureDepth depth);
 
+/// A picture with its opacity: four channels of 8 bits, blue first, opaque where the file says nothing of opacity.
+struct ClearPicture {
+  cv::Mat bgra;
+  cv::Size file_size;  ///< pixels in the file
+};
+
+/// decode_picture with opacity, no side longer than `max_side`: of larger ones each pixel is the mean of several. PNG and JPEG
+/// are made smaller while they are read.
+ClearPicture decode_clear_picture(std::span<const std::uint8_t> file, int max_side);
+
 /// decode_picture of a file on disk. Throws Error naming the file.
 cv::Mat read_picture(const std::string& path, PictureDepth depth);
 

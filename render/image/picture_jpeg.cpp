@@ -5,6 +5,7 @@
 // After jpeglib.h, which it needs.
 #include <jerror.h>
 
+#include <algorithm>
 #include <csetjmp>
 #include <cstring>
 #include <string>
@@ -47,12 +48,16 @@ struct Reader {
 };
 
 // Blue first; ink colours of print (CMYK, YCCK) as four channels.
-bool start(Reader* reader, std::span<const std::uint8_t> file) {
+bool start(Reader* reader, std::span<const std::uint8_t> file, int max_side) {
   if (setjmp(reader->failure.where)) return false;
   jpeg_create_decompress(&reader->jpeg);
   jpeg_mem_src(&reader->jpeg, file.data(), static_cast<unsigned long>(file.size()));
   jpeg_read_header(&reader->jpeg, TRUE);
   reader->jpeg.out_color_space = reader->jpeg.num_components == 4 ? JCS_CMYK : JCS_EXT_BGR;
+  // The format itself gives means over 2, 4 and 8 pixels.
+  const JDIMENSION side = std::max(reader->jpeg.image_width, reader->jpeg.image_height);
+  while (reader->jpeg.scale_denom < 8 && side / reader->jpeg.scale_denom > static_cast<JDIMENSION>(max_side))
+    reader->jpeg.scale_denom *= 2;
   jpeg_start_decompress(&reader->jpeg);
   return true;
 }
@@ -84,14 +89,16 @@ cv::Mat bgr_of_inks(const cv::Mat& cmyk) {
 
 }  // namespace
 
-StoredPicture decode_jpeg(std::span<const std::uint8_t> file) {
+StoredPicture decode_jpeg(std::span<const std::uint8_t> file, const PictureWish& wish) {
   Reader reader;
-  if (!start(&reader, file)) refuse(reader);
+  if (!start(&reader, file, wish.max_side)) refuse(reader);
   check_picture_size(reader.jpeg.output_width, reader.jpeg.output_height);
   cv::Mat pixels(static_cast<int>(reader.jpeg.output_height), static_cast<int>(reader.jpeg.output_width),
                  CV_8UC(reader.jpeg.output_components));
   if (!read_rows(&reader, pixels.data, pixels.step)) refuse(reader);
-  return {pixels.channels() == 4 ? bgr_of_inks(pixels) : pixels, exif_tags(file).orientation.value_or(1)};
+  return {pixels.channels() == 4 ? bgr_of_inks(pixels) : pixels,
+          exif_tags(file).orientation.value_or(1),
+          {static_cast<int>(reader.jpeg.image_width), static_cast<int>(reader.jpeg.image_height)}};
 }
 
 }  // namespace catchlight::render

@@ -1,7 +1,9 @@
 #include <png.h>
 
+#include <algorithm>
 #include <csetjmp>
 #include <cstring>
+#include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
@@ -40,13 +42,14 @@ void keep_message(png_structp png, png_const_charp text) {
 
 void ignore_warning(png_structp, png_const_charp) {}
 
-// Three channels of 8 or 16 bits, blue first, whatever the file has.
-bool read_header(png_structp png, png_infop info) {
+// Three channels of 8 or 16 bits, blue first, whatever the file has; opacity behind them where it is wanted and there.
+bool read_header(png_structp png, png_infop info, bool with_opacity) {
   if (setjmp(png_jmpbuf(png))) return false;
   png_read_info(png, info);
   const png_byte color = png_get_color_type(png, info), depth = png_get_bit_depth(png, info);
   if (depth == 16) png_set_swap(png);  // the file has the high byte first
-  png_set_strip_alpha(png);
+  if (!with_opacity) png_set_strip_alpha(png);
+  if (with_opacity && png_get_valid(png, info, PNG_INFO_tRNS)) png_set_tRNS_to_alpha(png);
   if (color == PNG_COLOR_TYPE_PALETTE) png_set_palette_to_rgb(png);
   if (color == PNG_COLOR_TYPE_GRAY && depth < 8) png_set_expand_gray_1_2_4_to_8(png);
   if (color & PNG_COLOR_MASK_COLOR)
@@ -62,6 +65,12 @@ bool read_rows(png_structp png, png_bytepp rows) {
   if (setjmp(png_jmpbuf(png))) return false;
   png_read_image(png, rows);
   png_read_end(png, nullptr);
+  return true;
+}
+
+bool read_row(png_structp png, png_bytep row) {
+  if (setjmp(png_jmpbuf(png))) return false;
+  png_read_row(png, row, nullptr);
   return true;
 }
 
@@ -110,19 +119,36 @@ std::vector<png_bytep> rows_of(const cv::Mat& picture) {
   throw Error("is a damaged PNG (" + std::string(message[0] ? message : "no memory") + ")");
 }
 
+// Means over squares of `side` pixels, so that never more than `side` rows of the file are in memory.
+cv::Mat read_reduced(const Reader& reader, cv::Size size, int type, int side) {
+  cv::Mat reduced(std::max(size.height / side, 1), std::max(size.width / side, 1), type),
+      rows(std::min(side, size.height), size.width, type);
+  for (int y = 0; y < reduced.rows; ++y) {
+    for (int i = 0; i < rows.rows; ++i)
+      if (!read_row(reader.png, rows.ptr(i))) refuse(reader.message);
+    cv::resize(rows, reduced.row(y), cv::Size(reduced.cols, 1), 0, 0, cv::INTER_AREA);
+  }
+  return reduced;
+}
+
 }  // namespace
 
-StoredPicture decode_png(std::span<const std::uint8_t> file) {
+StoredPicture decode_png(std::span<const std::uint8_t> file, const PictureWish& wish) {
   Reader reader;
   if (!reader.info) refuse(reader.message);
   Input input{file};
   png_set_read_fn(reader.png, &input, read_bytes);
-  if (!read_header(reader.png, reader.info)) refuse(reader.message);
+  if (!read_header(reader.png, reader.info, wish.with_opacity)) refuse(reader.message);
   const double width = png_get_image_width(reader.png, reader.info), height = png_get_image_height(reader.png, reader.info);
   check_picture_size(width, height);
-  const int type = png_get_bit_depth(reader.png, reader.info) == 16 ? CV_16UC3 : CV_8UC3;
-  StoredPicture picture{cv::Mat(static_cast<int>(height), static_cast<int>(width), type),
-                        exif_tags(file).orientation.value_or(1)};
+  const cv::Size size(static_cast<int>(width), static_cast<int>(height));
+  const int depth = png_get_bit_depth(reader.png, reader.info) == 16 ? CV_16U : CV_8U;
+  const int type = CV_MAKETYPE(depth, png_get_channels(reader.png, reader.info));
+  const int orientation = exif_tags(file).orientation.value_or(1);
+  const int side = 1 + (std::max(size.width, size.height) - 1) / wish.max_side;
+  if (side > 1 && png_get_interlace_type(reader.png, reader.info) == PNG_INTERLACE_NONE)
+    return {read_reduced(reader, size, type, side), orientation, size};
+  StoredPicture picture{cv::Mat(size, type), orientation, size};
   std::vector<png_bytep> rows = rows_of(picture.pixels);
   if (!read_rows(reader.png, rows.data())) refuse(reader.message);
   return picture;

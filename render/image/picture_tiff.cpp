@@ -112,11 +112,12 @@ StoredPicture decode_tiff(std::span<const std::uint8_t> file) {
   check_picture_size(width, height);
   const int columns = static_cast<int>(width), rows = static_cast<int>(height);
   const int orientation = field<std::uint16_t>(tiff.get(), TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
-  if (!is_deep(tiff.get())) return {byte_pixels(tiff.get(), columns, rows, orientation), orientation};
+  if (!is_deep(tiff.get())) return {byte_pixels(tiff.get(), columns, rows, orientation), orientation, {columns, rows}};
   const bool is_float = field<std::uint16_t>(tiff.get(), TIFFTAG_BITSPERSAMPLE, 8) == 32;
   return {is_float ? deep_pixels<float>(tiff.get(), columns, rows, CV_32FC3)
                    : deep_pixels<std::uint16_t>(tiff.get(), columns, rows, CV_16UC3),
-          orientation};
+          orientation,
+          {columns, rows}};
 }
 
 }  // namespace catchlight::render

@@ -1,4 +1,4 @@
-// Parts of the glTF reader: accessors as plain arrays, materials with their base colour textures.
+// Parts of the glTF reader: accessors as plain arrays, materials with their textures.
 #pragma once
 
 // The same as in tiny_gltf.cpp: pictures are decoded elsewhere.
@@ -6,11 +6,11 @@
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #include <tiny_gltf.h>
 
-#include <optional>
 #include <span>
 
-#include "catchlight/image.hpp"
+#include "catchlight/error.hpp"
 #include "render/mesh/mesh.hpp"
+#include "render/mesh/texture_file.hpp"
 #include "render/mesh/unused_features.hpp"
 
 namespace catchlight::render::gltf {
@@ -41,20 +41,42 @@ void note_unused(const Document& document, UnusedFeatures& unused);
 /// Throws Error where the document cannot be drawn without an extension that is not known.
 void check_required_extensions(const Document& document);
 
-/// The material's factors only, extensions specular, ior and emissive_strength included.
+/// The material's factors and alpha mode; extensions specular, ior, emissive_strength and unlit are included.
 Material material_of(const tinygltf::Material& source);
 
-/// A base colour texture, ready to be looked up at texture coordinates.
-struct ColorTexture {
-  Image image_linear;
-  int texture_coordinates = 0;  ///< n of TEXCOORD_n
-  int wrap_s = TINYGLTF_TEXTURE_WRAP_REPEAT, wrap_t = TINYGLTF_TEXTURE_WRAP_REPEAT;
-  glm::dmat3 uv_transform{1.0};  ///< KHR_texture_transform
-
-  glm::vec3 operator()(const glm::dvec2& uv) const;
+/// A material for the primitives that have certain texture coordinates.
+struct TexturedMaterial {
+  Material material;
+  std::vector<int> sets;  ///< n of the TEXCOORD_n that are the vertices' first and second set
 };
 
-/// The material's base colour texture; empty where it has none. Throws Error where the picture cannot be decoded.
-std::optional<ColorTexture> base_color_texture(const Document& document, const tinygltf::Material& material);
+/// Reads materials with their textures.
+class MaterialReader {
+ public:
+  /// Adds to `textures`, and to `unused` what cannot be used.
+  MaterialReader(const Document& document, std::vector<std::shared_ptr<const Texture>>& textures, UnusedFeatures& unused,
+                 const WarningHandler& warn)
+      : document_(document), textures_(textures), unused_(unused), warn_(warn) {}
+
+  /// Leaves out textures for which the primitive has no texture coordinates. Throws Error where a picture cannot be decoded.
+  TexturedMaterial read(const tinygltf::Material& source, const tinygltf::Primitive& primitive);
+
+ private:
+  template <typename Info>
+  MaterialTexture texture(const Info& info, const char* what, bool is_srgb, const std::string& material);
+  void add_textures(const tinygltf::Material& source, Material& material);
+
+  const Document& document_;
+  TextureList textures_;
+  UnusedFeatures& unused_;
+  const WarningHandler& warn_;
+};
+
+/// A member of the material's, or texture's, extensions; nullptr where it has none of that name.
+const tinygltf::Value* extension(const tinygltf::ExtensionMap& extensions, const char* name);
+
+/// A number in an object that may be missing (nullptr), or in an array in it.
+double number(const tinygltf::Value* object, const char* key, double otherwise);
+double number_at(const tinygltf::Value* object, const char* key, int index, double otherwise);
 
 }  // namespace catchlight::render::gltf

@@ -1,6 +1,7 @@
 // Triangle meshes with metallic-roughness materials.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
@@ -11,6 +12,9 @@
 
 namespace catchlight::render {
 
+/// What opacity does: nothing; cuts out what is less opaque than Material::alpha_cutoff; lets through what is behind.
+enum class AlphaMode { opaque, mask, blend };
+
 /// A material of glTF 2.0's metallic-roughness model. Colours are linear Rec. 709. Textures multiply the factors.
 struct Material {
   std::string name;
@@ -20,12 +24,19 @@ struct Material {
   float dielectric_f0 = 0.04f;  ///< ((ior-1)/(ior+1))^2 * KHR_materials_specular.specularFactor
   glm::vec3 emissive{0.0f};     ///< radiance
   glm::vec3 unlit_color{0.0f};  ///< times Vertex::color: the exposed linear value that is added, whatever light and exposure are
+  AlphaMode alpha_mode = AlphaMode::opaque;
+  float alpha_cutoff = 0.5f;
+  float opacity = 1.0f;                        ///< times that of the base colour texture
+  bool is_double_sided = false;                ///< seen from behind, it is lit there
   MaterialTexture base_color_texture;          ///< times base_color, or unlit_color
   MaterialTexture metallic_roughness_texture;  ///< green times roughness, blue times metallic
   MaterialTexture normal_texture;              ///< tangent space, +y up
   MaterialTexture occlusion_texture;           ///< red
   MaterialTexture emissive_texture;            ///< times emissive
 
+  std::array<MaterialTexture*, 5> texture_uses() {
+    return {&base_color_texture, &metallic_roughness_texture, &normal_texture, &occlusion_texture, &emissive_texture};
+  }
   bool has_textures() const {
     return base_color_texture.is_used() || metallic_roughness_texture.is_used() || normal_texture.is_used() ||
            occlusion_texture.is_used() || emissive_texture.is_used();

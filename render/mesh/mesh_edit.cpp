@@ -177,8 +177,7 @@ void append(Mesh& mesh, const Mesh& other) {
     mesh.triangle_material.push_back(static_cast<std::uint16_t>(first_material + material));
   }
   for (Material material : other.materials) {
-    for (MaterialTexture* use : {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
-                                 &material.occlusion_texture, &material.emissive_texture})
+    for (MaterialTexture* use : material.texture_uses())
       if (use->is_used()) use->texture += static_cast<int>(mesh.textures.size());
     mesh.materials.push_back(std::move(material));
   }

@@ -7,6 +7,7 @@
 
 #include "catchlight/util/text.hpp"
 #include "render/mesh/mesh_import.hpp"
+#include "render/mesh/tangents.hpp"
 
 namespace catchlight::render {
 namespace {
@@ -71,6 +72,7 @@ Mesh load_mesh(const std::string& path, const WarningHandler& warn) {
   if (imported.mesh.indices.empty()) throw Error(path + ": holds no triangles");
   make_missing_normals(imported);
   for (Vertex& vertex : imported.mesh.vertices) vertex.normal = glm::normalize(vertex.normal);
+  make_missing_tangents(imported.mesh);
   return std::move(imported.mesh);
 }
 

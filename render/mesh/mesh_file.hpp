@@ -10,8 +10,8 @@
 namespace catchlight::render {
 
 /// Reads glTF 2.0 (.glb, .gltf) with node transforms applied, OBJ and PLY. Units are metres. Makes normals where the file has
-/// none: flat ones, but smooth ones where OBJ's smoothing groups say so, and where PLY bends little. Base colour textures and
-/// vertex colours end up in Vertex::color, so albedo varies as finely as the vertices. Triangles without area are left out with a
+/// none: flat ones, but smooth ones where OBJ's smoothing groups say so, and where PLY bends little. Normal maps get
+/// tangents where the file has none. Triangles without area are left out with a
 /// warning. Throws Error naming the file: unreadable, no triangles, non-finite positions, indices out of range, an unknown
 /// required extension.
 Mesh load_mesh(const std::string& path, const WarningHandler& warn);

@@ -6,8 +6,10 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <map>
 
 #include "catchlight/error.hpp"
+#include "catchlight/util/text.hpp"
 #include "render/mesh/gltf.hpp"
 #include "render/mesh/mesh_import.hpp"
 
@@ -18,6 +20,9 @@ using gltf::Document;
 
 /// Blank space before the first brace may be this long.
 constexpr std::size_t kSearchedBytes = 4096;
+
+/// Tangents of 8 bits are off by a hundredth.
+constexpr float kTangentTolerance = 0.05f;
 
 /// Whether a file that may be glTF is a binary one; a text begins with a brace.
 bool is_binary(const std::string& path) {
@@ -85,10 +90,8 @@ std::vector<std::uint32_t> triangles_of(const std::vector<std::uint32_t>& order,
 
 class Importer {
  public:
-  Importer(const Document& document, UnusedFeatures& unused) : document_(document), unused_(unused) {
-    for (const tinygltf::Material& material : document.model.materials) mesh_.materials.push_back(gltf::material_of(material));
-    if (mesh_.materials.size() >= 65535) throw Error(document.path + ": more than 65535 materials");
-  }
+  Importer(const Document& document, UnusedFeatures& unused, const WarningHandler& warn)
+      : document_(document), unused_(unused), material_reader_(document, mesh_.textures, unused, warn) {}
 
   Mesh run() {
     const tinygltf::Model& model = document_.model;
@@ -104,6 +107,11 @@ class Importer {
       const std::size_t scene = model.defaultScene >= 0 ? model.defaultScene : 0;
       for (const int node : model.scenes.at(scene).nodes) add_node(node, glm::dmat4(1), 0);
     }
+    if (mesh_.textures.empty()) mesh_.texture_coordinates.clear();
+    if (mended_ > 0)
+      unused_.add(counted(mended_, "texture coordinate is", "texture coordinates are") + " not finite and count as 0");
+    if (bad_tangents_ > 0)
+      unused_.add(counted(bad_tangents_, "tangent is", "tangents are") + " not of length 1: normal maps get new ones there");
     return std::move(mesh_);
   }
 
@@ -127,7 +135,9 @@ class Importer {
       return unused_.add("points and lines are left out");
     }
     const std::size_t base = mesh_.vertices.size();
+    const UsedMaterial& material = material_of(primitive);
     add_vertices(primitive, read("POSITION", primitive, 3), scene_from_node);
+    add_texture_coordinates(primitive, material, base, glm::dmat3(scene_from_node));
     const std::size_t count = mesh_.vertices.size() - base;
     std::vector<std::uint32_t> order;
     if (primitive.indices >= 0) {
@@ -144,15 +154,31 @@ class Importer {
         throw Error(document_.path + ": a triangle names vertex " + std::to_string(corner) + " of " + std::to_string(count));
       mesh_.indices.push_back(static_cast<std::uint32_t>(base + corner));
     }
-    mesh_.triangle_material.insert(mesh_.triangle_material.end(), corners.size() / 3, material_index(primitive.material));
+    mesh_.triangle_material.insert(mesh_.triangle_material.end(), corners.size() / 3, material.index);
   }
 
-  // Primitives that name no material share glTF's default one, added when first needed.
-  std::uint16_t material_index(int named) {
+  struct UsedMaterial {
+    std::uint16_t index;
+    std::vector<int> sets;  ///< as in TexturedMaterial
+    bool has_normal_map;
+  };
+
+  // One for each material and the texture coordinates that primitives have for it. Those that name none share glTF's default.
+  const UsedMaterial& material_of(const tinygltf::Primitive& primitive) {
     const std::size_t count = document_.model.materials.size();
-    if (named >= 0 && static_cast<std::size_t>(named) < count) return static_cast<std::uint16_t>(named);
-    if (mesh_.materials.size() == count) mesh_.materials.push_back(gltf::material_of(tinygltf::Material()));
-    return static_cast<std::uint16_t>(count);
+    const bool is_named = primitive.material >= 0 && static_cast<std::size_t>(primitive.material) < count;
+    std::string key = is_named ? std::to_string(primitive.material) : "";
+    for (const auto& [attribute, accessor] : primitive.attributes)
+      if (is_named && attribute.starts_with("TEXCOORD_")) key += ' ' + attribute;
+    const auto found = used_materials_.find(key);
+    if (found != used_materials_.end()) return found->second;
+    const gltf::TexturedMaterial made =
+        material_reader_.read(is_named ? document_.model.materials[primitive.material] : tinygltf::Material(), primitive);
+    if (mesh_.materials.size() >= 65535) throw Error(document_.path + ": more than 65535 materials");
+    mesh_.materials.push_back(made.material);
+    const UsedMaterial used{static_cast<std::uint16_t>(mesh_.materials.size() - 1), made.sets,
+                            made.material.normal_texture.is_used()};
+    return used_materials_.emplace(key, used).first->second;
   }
 
   std::vector<float> read(const std::string& attribute, const tinygltf::Primitive& primitive, int components) const {
@@ -162,7 +188,7 @@ class Importer {
 
   void add_vertices(const tinygltf::Primitive& primitive, const std::vector<float>& positions,
                     const glm::dmat4& scene_from_node) {
-    const std::size_t base = mesh_.vertices.size(), count = positions.size() / 3;
+    const std::size_t count = positions.size() / 3;
     const std::vector<float> normals = read("NORMAL", primitive, 3), colors = read("COLOR_0", primitive, 3);
     const glm::dmat3 linear(scene_from_node), normal_matrix = glm::inverseTranspose(linear);
     for (std::size_t i = 0; i < count; ++i) {
@@ -175,22 +201,43 @@ class Importer {
       if (colors.size() == positions.size()) vertex.color = glm::clamp(glm::make_vec3(&colors[3 * i]), 0.0f, 1.0f);
       mesh_.vertices.push_back(vertex);
     }
-    color_by_texture(primitive, base);
   }
 
-  void color_by_texture(const tinygltf::Primitive& primitive, std::size_t base) {
-    if (primitive.material < 0 || static_cast<std::size_t>(primitive.material) >= document_.model.materials.size()) return;
-    const auto texture = gltf::base_color_texture(document_, document_.model.materials[primitive.material]);
-    if (!texture) return;
-    const std::vector<float> uv = read("TEXCOORD_" + std::to_string(texture->texture_coordinates), primitive, 2);
-    for (std::size_t i = 0; 2 * i + 1 < uv.size() && base + i < mesh_.vertices.size(); ++i) {
-      mesh_.vertices[base + i].color *= (*texture)(glm::dvec2(uv[2 * i], uv[2 * i + 1]));
+  void add_texture_coordinates(const tinygltf::Primitive& primitive, const UsedMaterial& material, std::size_t base,
+                               const glm::dmat3& scene_from_node) {
+    mesh_.texture_coordinates.resize(mesh_.vertices.size());
+    for (std::size_t set = 0; set < material.sets.size(); ++set) {
+      const std::vector<float> uv = read("TEXCOORD_" + std::to_string(material.sets[set]), primitive, 2);
+      for (std::size_t i = 0; 2 * i + 1 < uv.size() && base + i < mesh_.vertices.size(); ++i) {
+        const bool is_finite = std::isfinite(uv[2 * i]) && std::isfinite(uv[2 * i + 1]);
+        if (is_finite) mesh_.texture_coordinates[base + i].uv[set] = {uv[2 * i], uv[2 * i + 1]};
+        mended_ += !is_finite;
+      }
+    }
+    if (material.has_normal_map) add_tangents(primitive, base, scene_from_node);
+  }
+
+  // Those that are no directions stay zero, to be made anew.
+  void add_tangents(const tinygltf::Primitive& primitive, std::size_t base, const glm::dmat3& scene_from_node) {
+    const std::vector<float> tangents = read("TANGENT", primitive, 4);
+    const float sign = glm::determinant(scene_from_node) < 0 ? -1.0f : 1.0f;
+    for (std::size_t i = 0; 4 * i + 3 < tangents.size() && base + i < mesh_.vertices.size(); ++i) {
+      const glm::vec4 tangent = glm::make_vec4(&tangents[4 * i]);
+      const glm::dvec3 turned = scene_from_node * glm::dvec3(tangent);
+      const bool is_usable = std::abs(glm::length(glm::vec3(tangent)) - 1) < kTangentTolerance &&
+                             std::abs(std::abs(tangent.w) - 1) < kTangentTolerance && glm::length(turned) > 0;
+      if (is_usable)
+        mesh_.texture_coordinates[base + i].tangent = glm::vec4(glm::normalize(turned), tangent.w < 0 ? -sign : sign);
+      bad_tangents_ += !is_usable;
     }
   }
 
   const Document& document_;
   UnusedFeatures& unused_;
   Mesh mesh_;
+  gltf::MaterialReader material_reader_;
+  std::map<std::string, UsedMaterial> used_materials_;
+  std::size_t mended_ = 0, bad_tangents_ = 0;
 };
 
 }  // namespace
@@ -200,7 +247,7 @@ ImportedMesh import_gltf(const std::string& path, const WarningHandler& warn) {
   try {
     ImportedMesh imported;
     UnusedFeatures unused;
-    imported.mesh = Importer(document, unused).run();
+    imported.mesh = Importer(document, unused, warn).run();
     gltf::note_unused(document, unused);
     unused.report(path, warn);
     return imported;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "render/image/picture_file.hpp"
 #include "render/mesh/mesh_file.hpp"
 #include "tests/support/test_files.hpp"
 
@@ -69,6 +70,14 @@ inline Gltf triangle() {
   return gltf;
 }
 
+/// The triangle with texture coordinates of the same places, v down; with material 0.
+inline Gltf textured_triangle() {
+  Gltf gltf = triangle();
+  const int uv = gltf.vectors({0, 0, 1, 0, 0, 1}, "VEC2", 2);
+  gltf.primitive = R"("attributes":{"POSITION":0,"TEXCOORD_0":)" + std::to_string(uv) + R"(},"material":0)";
+  return gltf;
+}
+
 class GltfFile : public testing::Test {
  protected:
   Mesh load(const std::string& name) { return load_mesh(folder_ / name, warnings_.handler()); }
@@ -79,6 +88,8 @@ class GltfFile : public testing::Test {
   std::string load_error(const Gltf& gltf) {
     return error_of([&] { load(gltf); });
   }
+
+  void write_picture(const std::string& name, const cv::Mat& bgr) { write_png(folder_ / name, bgr); }
 
   TempFolder folder_;
   Warnings warnings_;

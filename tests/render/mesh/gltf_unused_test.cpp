@@ -13,8 +13,7 @@ using testing::IsEmpty;
 using testing::Not;
 
 Gltf with_materials(const std::string& materials) {
-  Gltf gltf = triangle();
-  gltf.primitive += R"(,"material":0)";
+  Gltf gltf = textured_triangle();
   gltf.materials = materials;
   return gltf;
 }
@@ -33,7 +32,8 @@ TEST_F(GltfFile, AFeatureIsNamedOnceForAllItsMaterials) {
     materials += std::string(materials.empty() ? "" : ",") + R"({"name":")" + name +
                  R"(","normalTexture":{"index":0},"extensions":{"KHR_materials_transmission":{"transmissionFactor":1}}})";
   Gltf gltf = with_materials(materials);
-  gltf.extra = R"("extensionsUsed":["KHR_materials_transmission"],"textures":[{"source":0}],"images":[{"uri":"none.png"}],)";
+  gltf.extra = R"("extensionsUsed":["KHR_materials_transmission"],"textures":[{"source":0}],"images":[{"uri":"grey.png"}],)";
+  write_picture("grey.png", cv::Mat(1, 1, CV_8UC3, cv::Scalar::all(128)));
   load(gltf);
   EXPECT_THAT(warnings_.all,
               ElementsAre(AllOf(HasSubstr("normal maps"), HasSubstr("(material \"a\", \"b\", \"c\" and 2 more)")),
@@ -44,7 +44,8 @@ TEST_F(GltfFile, MapsAreNamed) {
   Gltf gltf = with_materials(R"({"name":"m","pbrMetallicRoughness":{"metallicRoughnessTexture":{"index":0}},
       "occlusionTexture":{"index":0},"emissiveTexture":{"index":0},
       "extensions":{"KHR_materials_specular":{"specularTexture":{"index":0}}}})");
-  gltf.extra = R"("extensionsUsed":["KHR_materials_specular"],"textures":[{"source":0}],"images":[{"uri":"none.png"}],)";
+  gltf.extra = R"("extensionsUsed":["KHR_materials_specular"],"textures":[{"source":0}],"images":[{"uri":"grey.png"}],)";
+  write_picture("grey.png", cv::Mat(1, 1, CV_8UC3, cv::Scalar::all(128)));
   load(gltf);
   EXPECT_THAT(warnings_.all, ElementsAre(HasSubstr("metallic-roughness maps"), HasSubstr("occlusion maps"),
                                          HasSubstr("emissive maps"), HasSubstr("specular maps")));
