@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "render/mesh/mesh_file.hpp"
+#include "render/mesh/obj_material.hpp"
 
 namespace catchlight::render {
 namespace {
@@ -33,6 +34,14 @@ std::vector<std::string> named_in_obj(std::istream& in) {
   return names;
 }
 
+void add_library(const std::string& path, std::vector<std::string>& files) {
+  files.push_back(path);
+  try {
+    for (const std::string& picture : pictures_of_obj_materials(path)) files.push_back(picture);
+  } catch (const Error&) {  // damaged, or not there: it names none
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> files_of_mesh(const std::string& path) {
@@ -44,7 +53,7 @@ std::vector<std::string> files_of_mesh(const std::string& path) {
   if (extension == ".gltf")
     for (const std::string& name : named_in_gltf(in)) files.push_back(file.parent_path() / name);
   if (extension == ".obj")
-    for (const std::string& name : named_in_obj(in)) files.push_back(file.parent_path() / name);
+    for (const std::string& name : named_in_obj(in)) add_library(file.parent_path() / name, files);
   return files;
 }
 

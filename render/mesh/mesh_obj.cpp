@@ -1,5 +1,7 @@
 // Wavefront's OBJ: triangles and polygons, with their materials and smoothing groups.
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <unordered_map>
 
@@ -20,6 +22,17 @@ glm::vec3 linear_color(const glm::dvec3& code) {
   return {linear_from_srgb(inside.r), linear_from_srgb(inside.g), linear_from_srgb(inside.b)};
 }
 
+/// The numbers of position, normal and texture coordinate, and the material where it has textures.
+using Corner = std::array<std::uint32_t, 4>;
+
+struct CornerHash {
+  std::size_t operator()(const Corner& corner) const {
+    std::size_t hash = 0;
+    for (const std::uint32_t number : corner) hash = (hash ^ number) * 0x9e3779b97f4a7c15u, hash ^= hash >> 29;
+    return hash;
+  }
+};
+
 class ObjReader {
  public:
   ObjReader(const std::string& path, const WarningHandler& warn) : path_(path), warn_(warn), lines_(path) {}
@@ -32,6 +45,7 @@ class ObjReader {
                                         : ", only " + std::to_string(positions_m_.size()) +
                                               " points; expected triangles or polygons, in lines such as \"f 1 2 3\""));
     }
+    if (imported_.mesh.textures.empty()) imported_.mesh.texture_coordinates.clear();
     unused_.report(path_, warn_);
     return std::move(imported_);
   }
@@ -40,6 +54,7 @@ class ObjReader {
   void read_line() {
     const std::string_view key = lines_.words()[0];
     if (key == "v") add_position();
+    if (key == "vt") add_texture_coordinate();
     if (key == "vn") normals_.push_back(glm::dvec3(lines_.number(1), lines_.number(2), lines_.number(3)));
     if (key == "f") add_face();
     if (key == "s") smoothing_group_ = smoothing_group();
@@ -57,6 +72,17 @@ class ObjReader {
                                  : glm::vec3(1));
   }
 
+  // v runs up in the file. Some write "nan" where nothing is unfolded.
+  void add_texture_coordinate() {
+    const auto number = [&](std::size_t i) {
+      return i < lines_.words().size() ? static_cast<float>(real_from_text(lines_.words()[i]).value_or(0)) : 0.0f;
+    };
+    const glm::vec2 uv(number(1), 1 - number(2));
+    const bool is_finite = std::isfinite(uv.x) && std::isfinite(uv.y);
+    if (!is_finite) unused_.add("texture coordinates that are not finite count as 0");
+    places_.push_back(is_finite ? uv : glm::vec2(0));
+  }
+
   // Numbers above 0 count from the first one on, below 0 from the last one back.
   std::uint32_t index_from(std::string_view text, std::size_t count, const char* what) const {
     const std::optional<std::int64_t> number = integer_from_text(text);
@@ -69,15 +95,19 @@ class ObjReader {
     return static_cast<std::uint32_t>(index);
   }
 
-  // `word` is v, v/vt, v//vn or v/vt/vn.
-  std::uint32_t vertex_of(std::string_view word) {
+  // `word` is v, v/vt, v//vn or v/vt/vn. What textures need tells vertices apart only where the material has some.
+  std::uint32_t vertex_of(std::string_view word, bool is_textured) {
     const std::vector<std::string> parts = split(word, '/');
     const std::uint32_t position = index_from(parts[0], positions_m_.size(), "vertex");
     const bool has_normal = parts.size() > 2 && !parts[2].empty();
     const std::uint32_t normal = has_normal ? index_from(parts[2], normals_.size(), "normal") : kNone;
+    const std::uint32_t place = is_textured ? index_from(parts[1], places_.size(), "texture coordinate") : kNone;
     Mesh& mesh = imported_.mesh;
-    const auto [found, is_new] = vertices_.try_emplace(std::uint64_t{position} << 32 | normal, mesh.vertices.size());
+    const auto [found, is_new] = vertices_.try_emplace({position, normal, place, is_textured ? material_ : kNone},
+                                                       static_cast<std::uint32_t>(mesh.vertices.size()));
     if (is_new) {
+      mesh.texture_coordinates.emplace_back();
+      if (is_textured) mesh.texture_coordinates.back().uv[0] = places_[place];
       mesh.vertices.push_back(
           {glm::vec3(positions_m_[position]), has_normal ? glm::vec3(normals_[normal]) : glm::vec3(0), colors_[position]});
     }
@@ -87,16 +117,35 @@ class ObjReader {
   void add_face() {
     std::vector<std::uint32_t> polygon, corners;
     std::vector<glm::dvec3> places_m;
+    if (material_ == kNone) material_ = material_named("");
+    const std::uint32_t material = material_of_face();
+    const bool is_textured = imported_.mesh.materials[material].has_textures();
     for (std::size_t i = 1; i < lines_.words().size(); ++i) {
-      polygon.push_back(vertex_of(lines_.words()[i]));
+      polygon.push_back(vertex_of(lines_.words()[i], is_textured));
       places_m.push_back(imported_.mesh.vertices[polygon.back()].position_m);
     }
     if (polygon.size() < 3) return unused_.add("faces of fewer than three corners are left out");
     triangulate(places_m, corners);
-    if (material_ == kNone) material_ = material_named("");
     for (const std::uint32_t corner : corners) imported_.mesh.indices.push_back(polygon[corner]);
-    imported_.mesh.triangle_material.resize(imported_.mesh.indices.size() / 3, static_cast<std::uint16_t>(material_));
+    imported_.mesh.triangle_material.resize(imported_.mesh.indices.size() / 3, static_cast<std::uint16_t>(material));
     imported_.smoothing_group.resize(imported_.mesh.indices.size() / 3, smoothing_group_);
+  }
+
+  // Faces without texture coordinates are of the same material without textures.
+  std::uint32_t material_of_face() {
+    const Material& material = imported_.mesh.materials[material_];
+    const auto& words = lines_.words();
+    const bool has_places = std::all_of(words.begin() + 1, words.end(), [](std::string_view word) {
+      const std::size_t slash = word.find('/');
+      return slash + 1 < word.size() && slash != std::string_view::npos && word[slash + 1] != '/';
+    });
+    if (has_places || !material.has_textures()) return material_;
+    unused_.add("faces without texture coordinates are drawn without the textures", material.name);
+    const auto found = untextured_.find(material_);
+    if (found != untextured_.end()) return found->second;
+    Material plain = material;
+    for (MaterialTexture* use : plain.texture_uses()) *use = {};
+    return untextured_[material_] = add_material(std::move(plain));
   }
 
   std::uint32_t smoothing_group() const {
@@ -111,7 +160,7 @@ class ObjReader {
       if (warn_) warn_(path_ + ": its material library \"" + name + "\" is not there: the object is grey");
       return;
     }
-    for (Material& material : read_obj_materials(library, unused_)) add_material(std::move(material));
+    for (Material& material : read_obj_materials(library, textures_, unused_, warn_)) add_material(std::move(material));
   }
 
   std::uint32_t add_material(Material material) {
@@ -136,8 +185,11 @@ class ObjReader {
   UnusedFeatures unused_;
   ImportedMesh imported_;
   std::vector<glm::dvec3> positions_m_, normals_;
+  TextureList textures_{imported_.mesh.textures};
   std::vector<glm::vec3> colors_;
-  std::unordered_map<std::uint64_t, std::uint32_t> vertices_;  ///< by the numbers of position and normal
+  std::vector<glm::vec2> places_;  ///< in textures, v down
+  std::unordered_map<Corner, std::uint32_t, CornerHash> vertices_;
+  std::unordered_map<std::uint32_t, std::uint32_t> untextured_;  ///< materials without their textures
   std::unordered_map<std::string, std::uint32_t> materials_;
   std::uint32_t material_ = kNone, smoothing_group_ = 0;
 };

@@ -1,5 +1,6 @@
 // What is read of Wavefront's OBJ, and what is refused.
 #include "catchlight/color.hpp"
+#include "render/image/picture_file.hpp"
 #include "render/mesh/mesh_file.hpp"
 #include "render/mesh/mesh_import.hpp"
 #include "tests/support/test_files.hpp"
@@ -120,11 +121,104 @@ TEST_F(ObjFile, WhatIsNotUsedIsSaidOnce) {
   write_text(
       folder_ / "a.mtl",
       "newmtl a\nd 0.2\nmap_Kd -s 2 2 2 a.png\nPc 0.5\nnewmtl b\nd 0.5\nTr 0\nPc 0\nnewmtl c\nd 1\nmap_Kd b.png\nbump c.png\n");
-  load("mtllib a.mtl\n" + kSquare + "l 1 2\nl 2 3\np 1\nf 1 2\nusemtl a\nf 1 2 3\n");
+  for (const char* name : {"a.png", "b.png"}) write_png(folder_ / name, cv::Mat(1, 1, CV_8UC3, cv::Scalar::all(9)));
+  write_png(folder_ / "c.png", cv::Mat(1, 1, CV_8UC3, cv::Scalar(255, 128, 128)));
+  load("mtllib a.mtl\n" + kSquare + "vt 0 0\nl 1 2\nl 2 3\np 1\nf 1 2\nusemtl a\nf 1/1 2/1 3/1\n");
   EXPECT_THAT(warnings_.all, ElementsAre(AllOf(HasSubstr("a.obj: transparency (d)"), HasSubstr("(material \"a\", \"b\")")),
-                                         AllOf(HasSubstr("maps (map_Kd)"), HasSubstr("(material \"a\", \"c\")")),
+                                         AllOf(HasSubstr("base colour maps"), HasSubstr("(material \"a\", \"c\")")),
                                          HasSubstr("clear coat"), AllOf(HasSubstr("maps (bump)"), HasSubstr("\"c\"")),
                                          HasSubstr("points and lines are left out"), HasSubstr("fewer than three corners")));
+}
+
+class TexturedObj : public ObjFile {
+ protected:
+  /// A square with the library's material "m"; the whole picture lies on it upright.
+  Mesh load_square(const std::string& library, const std::string& face = "f 1/1 2/2 3/3 4/4\n") {
+    write_text(folder_ / "a.mtl", "newmtl m\n" + library);
+    return load("mtllib a.mtl\n" + kSquare + "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl m\n" + face);
+  }
+  void write_picture(const std::string& name, const cv::Scalar& bgr) { write_png(folder_ / name, cv::Mat(2, 2, CV_8UC3, bgr)); }
+  static const Texture& texture(const Mesh& mesh, const MaterialTexture& use) {
+    return *mesh.textures.at(static_cast<std::size_t>(use.texture));
+  }
+};
+
+TEST_F(TexturedObj, MapsGoIntoTheMaterialAndVRunsDown) {
+  write_picture("wood.png", cv::Scalar(10, 100, 200));
+  const Mesh mesh = load_square("Kd 0 0 0\nmap_Kd -clamp on wood.png\nmap_Ke wood.png\n");
+  const Material& material = mesh.materials.at(0);
+  EXPECT_EQ(material.base_color, glm::vec3(1)) << "black times a map would hide it";
+  EXPECT_EQ(material.emissive, glm::vec3(1));
+  EXPECT_TRUE(texture(mesh, material.base_color_texture).is_srgb);
+  EXPECT_EQ(texture(mesh, material.base_color_texture).wrap[0], TextureWrap::clamp);
+  EXPECT_EQ(texture(mesh, material.emissive_texture).wrap[0], TextureWrap::repeat);
+  EXPECT_EQ(texture(mesh, material.base_color_texture).levels[0].rgba[0], 200);
+  ASSERT_EQ(mesh.texture_coordinates.size(), 4u);
+  EXPECT_EQ(mesh.texture_coordinates[0].uv[0], glm::vec2(0, 1));
+  EXPECT_EQ(mesh.texture_coordinates[2].uv[0], glm::vec2(1, 0));
+}
+
+TEST_F(TexturedObj, KdMultipliesItsMap) {
+  write_picture("wood.png", cv::Scalar(10, 100, 200));
+  EXPECT_EQ(load_square("map_Kd wood.png\n").materials[0].base_color, glm::vec3(1)) << "without Kd";
+  EXPECT_EQ(load_square("Kd 0.5 0.5 0.5\nmap_Kd wood.png\n").materials[0].base_color, glm::vec3(0.5f));
+}
+
+TEST_F(TexturedObj, ScaleAndOffsetCountFromTheBottom) {
+  write_picture("wood grain.png", cv::Scalar(10, 100, 200));
+  const Mesh mesh = load_square("map_Kd -s 2 3 1 -o 0.5 0.25 wood grain.png\n");
+  // The corner (1, 1) of the file, its picture's upper right, goes to 2 * 1 + 0.5 and 3 * 1 + 0.25 from the bottom.
+  const glm::vec3 place = mesh.materials[0].base_color_texture.uv_transform * glm::vec3(mesh.texture_coordinates[2].uv[0], 1);
+  EXPECT_LT(glm::distance(place, glm::vec3(2.5f, 1 - 3.25f, 1)), 1e-6f);
+}
+
+TEST_F(TexturedObj, BumpMapsAreNormalsOrNamed) {
+  write_picture("n.png", cv::Scalar(255, 128, 128));
+  write_picture("h.png", cv::Scalar(128, 128, 128));
+  const Mesh mesh = load_square("map_Bump -bm 0.5 n.png\n");
+  EXPECT_EQ(mesh.materials[0].normal_texture.strength, 0.5f);
+  EXPECT_FALSE(texture(mesh, mesh.materials[0].normal_texture).is_srgb);
+  EXPECT_EQ(mesh.texture_coordinates[0].tangent, glm::vec4(1, 0, 0, 1));
+  warnings_.all.clear();
+  EXPECT_FALSE(load_square("map_Bump -bm 0.5 h.png\n").materials[0].normal_texture.is_used());
+  EXPECT_THAT(warnings_.all, testing::Contains(HasSubstr("the bump map \"h.png\" is one of heights")));
+}
+
+TEST_F(TexturedObj, FoldersOfAnotherMachineAreLookedForBesideTheLibrary) {
+  write_picture("wood.png", cv::Scalar(10, 100, 200));
+  EXPECT_TRUE(load_square("map_Kd C:\\Users\\me\\wood.png\n").has_textures());
+  EXPECT_TRUE(load_square("map_Kd /home/me/textures/wood.png\n").has_textures());
+}
+
+TEST_F(TexturedObj, WhatIsWrongIsSaidAndTheRestDrawn) {
+  EXPECT_FALSE(load_square("map_Kd none.png\n").has_textures());
+  EXPECT_THAT(warnings_.all, ElementsAre(AllOf(HasSubstr("a.mtl: its texture \"none.png\" is not there"))));
+  write_text(folder_ / "text.png", "no picture");
+  warnings_.all.clear();
+  EXPECT_FALSE(load_square("map_Kd text.png\n").has_textures());
+  EXPECT_THAT(warnings_.all, ElementsAre(HasSubstr("\"text.png\" cannot be decoded")));
+  EXPECT_THAT(error_of([&] { load_square("map_Kd\n"); }), AllOf(HasSubstr("a.mtl:2:"), HasSubstr("names no picture")));
+}
+
+TEST_F(TexturedObj, FacesWithoutTextureCoordinatesAreUntextured) {
+  write_picture("wood.png", cv::Scalar(10, 100, 200));
+  const Mesh mesh = load_square("map_Kd wood.png\n", "f 1/1 2/2 3/3\nf 1 3 4\n");
+  EXPECT_TRUE(mesh.materials[mesh.triangle_material[0]].has_textures());
+  EXPECT_FALSE(mesh.materials[mesh.triangle_material[1]].has_textures());
+  EXPECT_THAT(warnings_.all, testing::Contains(HasSubstr("faces without texture coordinates")));
+}
+
+TEST_F(TexturedObj, OpacityIsRead) {
+  const Mesh mesh = load_square("d 0.25\n");
+  EXPECT_EQ(mesh.materials[0].alpha_mode, AlphaMode::blend);
+  EXPECT_EQ(mesh.materials[0].opacity, 0.25f);
+  EXPECT_EQ(load_square("Tr 0.25\n").materials[0].opacity, 0.75f);
+}
+
+TEST_F(TexturedObj, NamesItsPictures) {
+  write_picture("wood.png", cv::Scalar(10, 100, 200));
+  load_square("map_Kd -s 2 2 wood.png\nmap_Ke none.png\n");
+  EXPECT_THAT(files_of_mesh(folder_ / "a.obj"), ElementsAre(folder_ / "a.obj", folder_ / "a.mtl", folder_ / "wood.png"));
 }
 
 }  // namespace
