@@ -48,6 +48,38 @@ Material unlit(const Material& lit) {
   return material;
 }
 
+/// The metalness with which a dielectric's F0 and the base colour give this diffuse and specular brightness (Khronos's conversion
+/// of specular-glossiness, KHR_materials_pbrSpecularGlossiness, appendix B).
+double metalness(double diffuse, double specular, double one_minus_specular) {
+  constexpr double kDielectric = 0.04;
+  if (specular < kDielectric) return 0;
+  const double b = diffuse * one_minus_specular / (1 - kDielectric) + specular - 2 * kDielectric;
+  return std::clamp((std::sqrt(std::max(b * b - 4 * kDielectric * (kDielectric - specular), 0.0)) - b) / (2 * kDielectric), 0.0,
+                    1.0);
+}
+
+/// What the eye takes for brightness, as that conversion has it.
+double perceived(const glm::dvec3& color) {
+  return std::sqrt(0.299 * color.r * color.r + 0.587 * color.g * color.g + 0.114 * color.b * color.b);
+}
+
+// Without metal the conversion is exact but for coloured reflections: diffuse stays, and specular is the F0.
+void convert_glossy(const tinygltf::Value& glossy, Material& material) {
+  const auto color = [&](const char* key) {
+    return glm::dvec3(number_at(&glossy, key, 0, 1), number_at(&glossy, key, 1, 1), number_at(&glossy, key, 2, 1));
+  };
+  const glm::dvec3 diffuse = glm::clamp(color("diffuseFactor"), 0.0, 1.0),
+                   specular = glm::clamp(color("specularFactor"), 0.0, 1.0);
+  const double strongest = std::max({specular.r, specular.g, specular.b}), kDielectric = 0.04;
+  const double metallic = metalness(perceived(diffuse), perceived(specular), 1 - strongest);
+  const glm::dvec3 from_diffuse = diffuse * (1 - strongest) / (1 - kDielectric) / std::max(1 - metallic, 1e-6),
+                   from_specular = (specular - kDielectric * (1 - metallic)) / std::max(metallic, 1e-6);
+  material.base_color = glm::vec3(glm::clamp(glm::mix(from_diffuse, from_specular, metallic * metallic), 0.0, 1.0));
+  material.metallic = static_cast<float>(metallic);
+  material.roughness = static_cast<float>(std::clamp(1 - number(&glossy, "glossinessFactor", 1), 0.0, 1.0));
+  material.dielectric_f0 = static_cast<float>(std::min(strongest, kDielectric));
+}
+
 }  // namespace
 
 bool keep_image_bytes(tinygltf::Image* image, int, std::string*, std::string*, int, int, const unsigned char* bytes, int size,
@@ -64,6 +96,8 @@ Material material_of(const tinygltf::Material& source) {
   material.metallic = unit(source.pbrMetallicRoughness.metallicFactor);
   material.roughness = unit(source.pbrMetallicRoughness.roughnessFactor);
   material.dielectric_f0 = dielectric_f0(source);
+  const tinygltf::Value* glossy = extension(source.extensions, "KHR_materials_pbrSpecularGlossiness");
+  if (glossy) convert_glossy(*glossy, material);
   const double strength = number(extension(source.extensions, "KHR_materials_emissive_strength"), "emissiveStrength", 1.0);
   material.emissive = glm::max(factor(source.emissiveFactor, glm::vec3(0)) * static_cast<float>(strength), 0.0f);
   if (source.alphaMode == "MASK") material.alpha_mode = AlphaMode::mask;
@@ -71,6 +105,7 @@ Material material_of(const tinygltf::Material& source) {
   material.alpha_cutoff = static_cast<float>(source.alphaCutoff);
   const std::vector<double>& color = source.pbrMetallicRoughness.baseColorFactor;
   if (material.alpha_mode != AlphaMode::opaque && color.size() == 4) material.opacity = unit(color[3]);
+  if (material.alpha_mode != AlphaMode::opaque && glossy) material.opacity = unit(number_at(glossy, "diffuseFactor", 3, 1));
   material.is_double_sided = source.doubleSided;
   if (extension(source.extensions, "KHR_materials_unlit")) return unlit(material);
   return material;

@@ -74,6 +74,13 @@ MaterialTexture MaterialReader::texture(const Info& info, const char* what, bool
 void MaterialReader::add_textures(const tinygltf::Material& source, Material& material) {
   const std::string& name = material.name;
   material.base_color_texture = texture(source.pbrMetallicRoughness.baseColorTexture, "base colour", true, name);
+  const tinygltf::Value* glossy = extension(source.extensions, "KHR_materials_pbrSpecularGlossiness");
+  if (glossy && glossy->Has("diffuseTexture")) {
+    tinygltf::TextureInfo diffuse;
+    diffuse.index = static_cast<int>(number(&glossy->Get("diffuseTexture"), "index", -1));
+    diffuse.texCoord = static_cast<int>(number(&glossy->Get("diffuseTexture"), "texCoord", 0));
+    material.base_color_texture = texture(diffuse, "diffuse", true, name);
+  }
   if (extension(source.extensions, "KHR_materials_unlit")) return;
   material.metallic_roughness_texture =
       texture(source.pbrMetallicRoughness.metallicRoughnessTexture, "metallic-roughness", false, name);

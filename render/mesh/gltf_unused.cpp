@@ -9,15 +9,16 @@
 namespace catchlight::render::gltf {
 namespace {
 
-constexpr std::array kKnownExtensions{"KHR_materials_specular", "KHR_materials_ior",     "KHR_materials_emissive_strength",
-                                      "KHR_texture_transform",  "KHR_mesh_quantization", "KHR_materials_unlit"};
+constexpr std::array kKnownExtensions{
+    "KHR_materials_specular", "KHR_materials_ior",   "KHR_materials_emissive_strength", "KHR_texture_transform",
+    "KHR_mesh_quantization",  "KHR_materials_unlit", "EXT_mesh_gpu_instancing",         "KHR_materials_pbrSpecularGlossiness"};
 
 /// What the object is drawn without as well as with, even where the file requires it.
 constexpr std::array kBesideTheObject{"KHR_lights_punctual", "EXT_lights_image_based", "EXT_lights_ies",
                                       "KHR_xmp_json_ld",     "KHR_animation_pointer",  "KHR_materials_variants"};
 
 /// What extensions are for, where their names do not say it to everybody.
-constexpr std::array<std::array<const char*, 2>, 12> kMeanings{
+constexpr std::array<std::array<const char*, 2>, 10> kMeanings{
     {{"KHR_materials_transmission", "transmission is not used: glass is opaque"},
      {"KHR_materials_volume", "volumes are not used: nothing shines through"},
      {"KHR_materials_clearcoat", "clear coat is not used"},
@@ -26,11 +27,8 @@ constexpr std::array<std::array<const char*, 2>, 12> kMeanings{
      {"KHR_materials_iridescence", "iridescence is not used"},
      {"KHR_materials_dispersion", "dispersion is not used"},
      {"KHR_materials_diffuse_transmission", "diffuse transmission is not used: thin sheets are opaque"},
-     {"KHR_materials_pbrSpecularGlossiness",
-      "specular-glossiness is not used; its materials come out as white metal: export as metallic-roughness"},
      {"KHR_materials_variants", "variants are not used: the default one is drawn"},
-     {"KHR_lights_punctual", "lights are not used: all light comes from the probe"},
-     {"EXT_mesh_gpu_instancing", "instances are not used: one of each is drawn"}}};
+     {"KHR_lights_punctual", "lights are not used: all light comes from the probe"}}};
 
 template <typename List>
 bool contains(const List& list, const std::string& name) {
@@ -72,22 +70,15 @@ void note_maps(const tinygltf::Material& material, const std::string& name, Unus
 void note_material(const tinygltf::Material& material, const std::string& name, UnusedFeatures& unused) {
   note_alpha(material, name, unused);
   note_maps(material, name, unused);
+  const auto glossy = material.extensions.find("KHR_materials_pbrSpecularGlossiness");
+  if (glossy != material.extensions.end() && glossy->second.Has("specularGlossinessTexture"))
+    unused.add("specular-glossiness maps are not used, only the factors", name);
   for (const auto& [extension, value] : material.extensions)
     if (!contains(kKnownExtensions, extension)) unused.add(sentence_about(extension), name);
 }
 
-bool is_moved(const std::vector<double>& weights) {
-  return std::any_of(weights.begin(), weights.end(), [](double weight) { return weight != 0; });
-}
-
 void note_shapes(const tinygltf::Model& model, UnusedFeatures& unused) {
   if (!model.animations.empty()) unused.add("animation is not used: the object stays as its nodes place it");
-  if (!model.skins.empty())
-    unused.add("skins are not used: the mesh is in the pose that it was bound in, as its own node places it");
-  const bool is_morphed =
-      std::any_of(model.meshes.begin(), model.meshes.end(), [](const auto& mesh) { return is_moved(mesh.weights); }) ||
-      std::any_of(model.nodes.begin(), model.nodes.end(), [](const auto& node) { return is_moved(node.weights); });
-  if (is_morphed) unused.add("morph targets are not used: their weights count as 0");
   if (!model.cameras.empty()) unused.add("cameras are not used: the footage has its own");
   if (model.scenes.size() > 1)
     unused.add("of its " + std::to_string(model.scenes.size()) + " scenes only the default one is drawn");

@@ -3,14 +3,13 @@
 #include <array>
 #include <fstream>
 #include <glm/gtc/matrix_inverse.hpp>
-#include <glm/gtc/matrix_transform.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <map>
 
 #include "catchlight/error.hpp"
 #include "catchlight/util/text.hpp"
 #include "render/mesh/gltf.hpp"
+#include "render/mesh/gltf_pose.hpp"
 #include "render/mesh/mesh_import.hpp"
 
 namespace catchlight::render {
@@ -62,18 +61,6 @@ Document open(const std::string& path) {
   return document;
 }
 
-glm::dmat4 parent_from_node(const tinygltf::Node& node) {
-  if (node.matrix.size() == 16) return glm::make_mat4(node.matrix.data());
-  glm::dmat4 matrix(1.0);
-  if (node.translation.size() == 3) matrix = glm::translate(matrix, glm::make_vec3(node.translation.data()));
-  if (node.rotation.size() == 4) {
-    const auto& r = node.rotation;  // x y z w
-    matrix *= glm::mat4_cast(glm::normalize(glm::dquat(r[3], r[0], r[1], r[2])));
-  }
-  if (node.scale.size() == 3) matrix = glm::scale(matrix, glm::make_vec3(node.scale.data()));
-  return matrix;
-}
-
 // Corners of triangles from a primitive's vertex order; odd triangles of a strip run the other way round.
 std::vector<std::uint32_t> triangles_of(const std::vector<std::uint32_t>& order, int mode) {
   if (mode != TINYGLTF_MODE_TRIANGLE_STRIP && mode != TINYGLTF_MODE_TRIANGLE_FAN) {
@@ -91,21 +78,18 @@ std::vector<std::uint32_t> triangles_of(const std::vector<std::uint32_t>& order,
 class Importer {
  public:
   Importer(const Document& document, UnusedFeatures& unused, const WarningHandler& warn)
-      : document_(document), unused_(unused), material_reader_(document, mesh_.textures, unused, warn) {}
+      : document_(document),
+        unused_(unused),
+        material_reader_(document, mesh_.textures, unused, warn),
+        scene_from_nodes_(gltf::scene_from_nodes(document)) {}
 
   Mesh run() {
     const tinygltf::Model& model = document_.model;
-    if (model.scenes.empty()) {  // a library of nodes: those without a parent
-      std::vector<bool> is_child(model.nodes.size());
-      for (const tinygltf::Node& node : model.nodes) {
-        for (const int child : node.children) is_child.at(child) = true;
-      }
-      for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-        if (!is_child[i]) add_node(static_cast<int>(i), glm::dmat4(1), 0);
-      }
+    if (model.scenes.empty()) {  // a library of nodes
+      for (std::size_t i = 0; i < model.nodes.size(); ++i) add_node(static_cast<int>(i));
     } else {
       const std::size_t scene = model.defaultScene >= 0 ? model.defaultScene : 0;
-      for (const int node : model.scenes.at(scene).nodes) add_node(node, glm::dmat4(1), 0);
+      for (const int node : model.scenes.at(scene).nodes) add_nodes(node);
     }
     if (mesh_.textures.empty()) mesh_.texture_coordinates.clear();
     if (mended_ > 0)
@@ -116,18 +100,27 @@ class Importer {
   }
 
  private:
-  void add_node(int index, const glm::dmat4& scene_from_parent, int depth) {
-    const tinygltf::Node& node = document_.model.nodes.at(index);
-    if (depth > 200) throw Error(document_.path + ": nodes are nested more than 200 deep or in a circle");
-    const glm::dmat4 scene_from_node = scene_from_parent * parent_from_node(node);
-    if (node.mesh >= 0) {
-      for (const tinygltf::Primitive& primitive : document_.model.meshes.at(node.mesh).primitives)
-        add_primitive(primitive, scene_from_node);
-    }
-    for (const int child : node.children) add_node(child, scene_from_node, depth + 1);
+  void add_nodes(int index) {
+    add_node(index);
+    for (const int child : document_.model.nodes.at(index).children) add_nodes(child);
   }
 
-  void add_primitive(const tinygltf::Primitive& primitive, const glm::dmat4& scene_from_node) {
+  void add_node(int index) {
+    const tinygltf::Node& node = document_.model.nodes.at(index);
+    if (node.mesh < 0) return;
+    for (const tinygltf::Primitive& primitive : document_.model.meshes.at(node.mesh).primitives) {
+      const std::vector<glm::dmat4> skinned = gltf::scene_from_skinned(document_, node, primitive, scene_from_nodes_);
+      if (!skinned.empty()) {
+        add_primitive(node, primitive, skinned);
+      } else {
+        for (const glm::dmat4& place : gltf::scene_from_instances(document_, node, scene_from_nodes_[index]))
+          add_primitive(node, primitive, {place});
+      }
+    }
+  }
+
+  /// `places` take each vertex to the scene, or its only one takes all.
+  void add_primitive(const tinygltf::Node& node, const tinygltf::Primitive& primitive, const std::vector<glm::dmat4>& places) {
     const bool has_triangles =
         primitive.mode == -1 || (primitive.mode >= TINYGLTF_MODE_TRIANGLES && primitive.mode <= TINYGLTF_MODE_TRIANGLE_FAN);
     const auto positions = primitive.attributes.find("POSITION");
@@ -136,8 +129,9 @@ class Importer {
     }
     const std::size_t base = mesh_.vertices.size();
     const UsedMaterial& material = material_of(primitive);
-    add_vertices(primitive, read("POSITION", primitive, 3), scene_from_node);
-    add_texture_coordinates(primitive, material, base, glm::dmat3(scene_from_node));
+    add_vertices(node, primitive, places);
+    add_texture_coordinates(primitive, material, base);
+    if (material.has_normal_map) add_tangents(primitive, base, places);
     const std::size_t count = mesh_.vertices.size() - base;
     std::vector<std::uint32_t> order;
     if (primitive.indices >= 0) {
@@ -146,9 +140,8 @@ class Importer {
       for (std::size_t i = 0; i < count; ++i) order.push_back(static_cast<std::uint32_t>(i));
     }
     std::vector<std::uint32_t> corners = triangles_of(order, primitive.mode);
-    if (glm::determinant(glm::dmat3(scene_from_node)) < 0) {  // mirrored: the winding turns round
-      for (std::size_t i = 0; i < corners.size(); i += 3) std::swap(corners[i + 1], corners[i + 2]);
-    }
+    for (std::size_t i = 0; i < corners.size(); i += 3)  // mirrored: the winding turns round
+      if (is_mirrored(place_of(places, corners[i]))) std::swap(corners[i + 1], corners[i + 2]);
     for (const std::uint32_t corner : corners) {
       if (corner >= count)
         throw Error(document_.path + ": a triangle names vertex " + std::to_string(corner) + " of " + std::to_string(count));
@@ -156,6 +149,12 @@ class Importer {
     }
     mesh_.triangle_material.insert(mesh_.triangle_material.end(), corners.size() / 3, material.index);
   }
+
+  static const glm::dmat4& place_of(const std::vector<glm::dmat4>& places, std::size_t vertex) {
+    return places[std::min(vertex, places.size() - 1)];
+  }
+
+  static bool is_mirrored(const glm::dmat4& place) { return glm::determinant(glm::dmat3(place)) < 0; }
 
   struct UsedMaterial {
     std::uint16_t index;
@@ -186,15 +185,21 @@ class Importer {
     return found == primitive.attributes.end() ? std::vector<float>() : gltf::read_floats(document_, found->second, components);
   }
 
-  void add_vertices(const tinygltf::Primitive& primitive, const std::vector<float>& positions,
-                    const glm::dmat4& scene_from_node) {
-    const std::size_t count = positions.size() / 3;
-    const std::vector<float> normals = read("NORMAL", primitive, 3), colors = read("COLOR_0", primitive, 3);
-    const glm::dmat3 linear(scene_from_node), normal_matrix = glm::inverseTranspose(linear);
-    for (std::size_t i = 0; i < count; ++i) {
-      Vertex vertex{glm::vec3(scene_from_node * glm::dvec4(glm::make_vec3(&positions[3 * i]), 1)), glm::vec3(0)};
+  std::vector<float> morphed(const std::string& attribute, const tinygltf::Node& node,
+                             const tinygltf::Primitive& primitive) const {
+    std::vector<float> values = read(attribute, primitive, 3);
+    gltf::add_morph_targets(document_, node, primitive, attribute, 3, values);
+    return values;
+  }
+
+  void add_vertices(const tinygltf::Node& node, const tinygltf::Primitive& primitive, const std::vector<glm::dmat4>& places) {
+    const std::vector<float> positions = morphed("POSITION", node, primitive), normals = morphed("NORMAL", node, primitive),
+                             colors = read("COLOR_0", primitive, 3);
+    for (std::size_t i = 0; i < positions.size() / 3; ++i) {
+      const glm::dmat4& place = place_of(places, i);
+      Vertex vertex{glm::vec3(place * glm::dvec4(glm::make_vec3(&positions[3 * i]), 1)), glm::vec3(0)};
       if (normals.size() == positions.size()) {
-        const glm::dvec3 normal = normal_matrix * glm::dvec3(glm::make_vec3(&normals[3 * i]));
+        const glm::dvec3 normal = glm::inverseTranspose(glm::dmat3(place)) * glm::dvec3(glm::make_vec3(&normals[3 * i]));
         const double length = glm::length(normal);
         if (length > 0) vertex.normal = glm::vec3(normal / length);
       }
@@ -203,8 +208,7 @@ class Importer {
     }
   }
 
-  void add_texture_coordinates(const tinygltf::Primitive& primitive, const UsedMaterial& material, std::size_t base,
-                               const glm::dmat3& scene_from_node) {
+  void add_texture_coordinates(const tinygltf::Primitive& primitive, const UsedMaterial& material, std::size_t base) {
     mesh_.texture_coordinates.resize(mesh_.vertices.size());
     for (std::size_t set = 0; set < material.sets.size(); ++set) {
       const std::vector<float> uv = read("TEXCOORD_" + std::to_string(material.sets[set]), primitive, 2);
@@ -214,20 +218,18 @@ class Importer {
         mended_ += !is_finite;
       }
     }
-    if (material.has_normal_map) add_tangents(primitive, base, scene_from_node);
   }
 
   // Those that are no directions stay zero, to be made anew.
-  void add_tangents(const tinygltf::Primitive& primitive, std::size_t base, const glm::dmat3& scene_from_node) {
+  void add_tangents(const tinygltf::Primitive& primitive, std::size_t base, const std::vector<glm::dmat4>& places) {
     const std::vector<float> tangents = read("TANGENT", primitive, 4);
-    const float sign = glm::determinant(scene_from_node) < 0 ? -1.0f : 1.0f;
     for (std::size_t i = 0; 4 * i + 3 < tangents.size() && base + i < mesh_.vertices.size(); ++i) {
       const glm::vec4 tangent = glm::make_vec4(&tangents[4 * i]);
-      const glm::dvec3 turned = scene_from_node * glm::dvec3(tangent);
+      const glm::dvec3 turned = glm::dmat3(place_of(places, i)) * glm::dvec3(tangent);
       const bool is_usable = std::abs(glm::length(glm::vec3(tangent)) - 1) < kTangentTolerance &&
                              std::abs(std::abs(tangent.w) - 1) < kTangentTolerance && glm::length(turned) > 0;
-      if (is_usable)
-        mesh_.texture_coordinates[base + i].tangent = glm::vec4(glm::normalize(turned), tangent.w < 0 ? -sign : sign);
+      const float sign = (tangent.w < 0) != is_mirrored(place_of(places, i)) ? -1.0f : 1.0f;
+      if (is_usable) mesh_.texture_coordinates[base + i].tangent = glm::vec4(glm::normalize(turned), sign);
       bad_tangents_ += !is_usable;
     }
   }
@@ -236,6 +238,7 @@ class Importer {
   UnusedFeatures& unused_;
   Mesh mesh_;
   gltf::MaterialReader material_reader_;
+  std::vector<glm::dmat4> scene_from_nodes_;
   std::map<std::string, UsedMaterial> used_materials_;
   std::size_t mended_ = 0, bad_tangents_ = 0;
 };
