@@ -77,6 +77,16 @@ std::vector<std::string> named_in_obj(std::istream& in) {
   return names;
 }
 
+std::vector<std::string> named_in_ply(std::istream& in) {
+  constexpr std::string_view kTexture = "comment TextureFile ";
+  std::vector<std::string> names;
+  for (std::string line; std::getline(in, line) && !line.starts_with("end_header");) {
+    line.erase(line.find_last_not_of(" \r") + 1);
+    if (line.starts_with(kTexture)) names.push_back(line.substr(kTexture.size()));
+  }
+  return names;
+}
+
 void add_library(const std::string& path, std::vector<std::string>& files) {
   files.push_back(path);
   try {
@@ -119,6 +129,8 @@ std::vector<std::string> files_of_mesh(const std::string& path) {
   std::ifstream in(path);
   if (extension == ".gltf")
     for (const std::string& name : named_in_gltf(in)) files.push_back(file.parent_path() / name);
+  if (extension == ".ply")
+    for (const std::string& name : named_in_ply(in)) files.push_back(file.parent_path() / name);
   if (extension == ".obj")
     for (const std::string& name : named_in_obj(in)) add_library(file.parent_path() / name, files);
   return files;

@@ -131,6 +131,7 @@ class Importer {
     const UsedMaterial& material = material_of(primitive);
     add_vertices(node, primitive, places);
     add_texture_coordinates(primitive, material, base);
+    note_clear_vertices(primitive, mesh_.materials[material.index]);
     if (material.has_normal_map) add_tangents(primitive, base, places);
     const std::size_t count = mesh_.vertices.size() - base;
     std::vector<std::uint32_t> order;
@@ -218,6 +219,16 @@ class Importer {
         mended_ += !is_finite;
       }
     }
+  }
+
+  void note_clear_vertices(const tinygltf::Primitive& primitive, const Material& material) {
+    const auto found = primitive.attributes.find("COLOR_0");
+    if (material.alpha_mode == AlphaMode::opaque || found == primitive.attributes.end()) return;
+    if (document_.model.accessors.at(found->second).type != TINYGLTF_TYPE_VEC4) return;
+    const std::vector<float> colors = gltf::read_floats(document_, found->second, 4);
+    bool is_clear = false;
+    for (std::size_t i = 3; i < colors.size(); i += 4) is_clear |= colors[i] < 1;
+    if (is_clear) unused_.add("the opacity of vertices is not used, only their colour", material.name);
   }
 
   // Those that are no directions stay zero, to be made anew.

@@ -1,11 +1,14 @@
 // PLY, as scanners and MeshLab write it: vertices with normals and colours; faces or strips of triangles.
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 
 #include "catchlight/color.hpp"
 #include "catchlight/util/text.hpp"
 #include "render/mesh/mesh_import.hpp"
 #include "render/mesh/ply_values.hpp"
+#include "render/mesh/texture_file.hpp"
 #include "render/mesh/unused_features.hpp"
 
 namespace catchlight::render {
@@ -14,9 +17,22 @@ namespace {
 /// What bends less counts as smooth: a scan's surface or a coarse ball, not the edge of a box.
 constexpr double kSmoothBelowDeg = 45;
 
-/// What is read of a vertex, in this order; colours may have other names.
-constexpr std::array<const char*, 9> kVertexNames{"x", "y", "z", "nx", "ny", "nz", "red", "green", "blue"};
-constexpr std::array<const char*, 9> kOtherNames{"", "", "", "", "", "", "diffuse_red", "diffuse_green", "diffuse_blue"};
+/// MeshLab's comment before the name of a picture.
+constexpr std::string_view kTextureFile = "TextureFile ";
+
+/// What is read of a vertex, in this order, under the names that programs give it.
+constexpr std::array<std::array<const char*, 3>, 11> kVertexNames{{{"x", "", ""},
+                                                                   {"y", "", ""},
+                                                                   {"z", "", ""},
+                                                                   {"nx", "", ""},
+                                                                   {"ny", "", ""},
+                                                                   {"nz", "", ""},
+                                                                   {"red", "diffuse_red", ""},
+                                                                   {"green", "diffuse_green", ""},
+                                                                   {"blue", "diffuse_blue", ""},
+                                                                   {"texture_u", "s", "u"},
+                                                                   {"texture_v", "t", "v"}}};
+constexpr std::size_t kRed = 6, kU = 9;
 
 /// Colours are codes for display: of integers the greatest is 1.
 double full_scale(PlyType type) {
@@ -33,7 +49,8 @@ class PlyReader {
     for (const PlyElement& element : values_.elements()) read_element(element);
     add_triangles();
     for (const std::string& comment : values_.comments())
-      if (comment.starts_with("TextureFile")) unused_.add("its texture (" + comment + ") is not used");
+      if (comment.starts_with(kTextureFile)) add_texture(comment, warn);
+    if (imported_.mesh.textures.empty()) imported_.mesh.texture_coordinates.clear();
     if (imported_.mesh.indices.empty()) {
       values_.refuse("holds no faces" + (vertex_count_ > 0 ? ", only " + std::to_string(vertex_count_) + " points" : "") +
                      "; expected a mesh of triangles or polygons");
@@ -58,34 +75,57 @@ class PlyReader {
     }
   }
 
+  // The first one only: which faces have which of several is written in many ways.
+  void add_texture(const std::string& comment, const WarningHandler& warn) {
+    Mesh& mesh = imported_.mesh;
+    if (!has_member_[kU] || !has_member_[kU + 1] || !mesh.textures.empty())
+      return unused_.add("its texture (" + comment + ") is not used");
+    const std::string name = comment.substr(kTextureFile.size());
+    try {
+      mesh.textures.push_back(
+          read_texture(std::filesystem::path(path_).parent_path() / name, {.is_srgb = true, .wrap = {}}, warn));
+    } catch (const Error& error) {
+      if (warn) warn(path_ + ": its texture is left out: " + error.what());
+      return;
+    }
+    mesh.materials[0].base_color_texture.texture = 0;
+    if (!has_member_[kRed]) mesh.materials[0].base_color = glm::vec3(1);
+    unused_.add("base colour maps are looked up at the vertices only: they are as sharp as the mesh is fine");
+  }
+
   void begin_vertices(const PlyElement& element) {
     member_.assign(element.properties.size(), kVertexNames.size());
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
       const PlyProperty& property = element.properties[i];
       for (std::size_t m = 0; m < kVertexNames.size(); ++m)
-        if (!property.count_type && (property.name == kVertexNames[m] || property.name == kOtherNames[m])) member_[i] = m;
+        if (!property.count_type && std::ranges::find(kVertexNames[m], property.name) != kVertexNames[m].end()) member_[i] = m;
       has_member_[member_[i]] = true;
     }
     if (!has_member_[0] || !has_member_[1] || !has_member_[2]) values_.refuse("its vertices have no x, y and z");
-    const bool is_colored = has_member_[6] && has_member_[7] && has_member_[8];
+    const bool is_colored = has_member_[kRed] && has_member_[kRed + 1] && has_member_[kRed + 2];
     imported_.mesh.materials.emplace_back().base_color = glm::vec3(is_colored ? 1.0f : 0.6f);
     imported_.mesh.vertices.reserve(element.count);
   }
 
   void add_vertex(const PlyElement& element) {
-    std::array<double, kVertexNames.size() + 1> value{0, 0, 0, 0, 0, 0, 1, 1, 1, 0};
+    std::array<double, kVertexNames.size() + 1> value{0, 0, 0, 0, 0, 0, 1, 1, 1, 0, 0, 0};
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
       const PlyProperty& property = element.properties[i];
       if (property.count_type) {
         skip_list(property);
       } else {
-        value[member_[i]] = values_.next(property.type) / (member_[i] >= 6 ? full_scale(property.type) : 1);
+        const bool is_color = member_[i] >= kRed && member_[i] < kU;
+        value[member_[i]] = values_.next(property.type) / (is_color ? full_scale(property.type) : 1);
       }
     }
     const auto vector = [&](std::size_t first) { return glm::dvec3(value[first], value[first + 1], value[first + 2]); };
-    const glm::dvec3 code = glm::clamp(vector(6), 0.0, 1.0);
+    const glm::dvec3 code = glm::clamp(vector(kRed), 0.0, 1.0);
     imported_.mesh.vertices.push_back({glm::vec3(vector(0)), glm::vec3(vector(3)),
                                        glm::vec3(linear_from_srgb(code.r), linear_from_srgb(code.g), linear_from_srgb(code.b))});
+    const glm::vec2 uv(value[kU], 1 - value[kU + 1]);  // v runs up in the file
+    const bool is_finite = std::isfinite(uv.x) && std::isfinite(uv.y);
+    if (!is_finite) unused_.add("texture coordinates that are not finite count as 0");
+    imported_.mesh.texture_coordinates.push_back({{is_finite ? uv : glm::vec2(0), glm::vec2(0)}, glm::vec4(0)});
   }
 
   void skip_list(const PlyProperty& property) {

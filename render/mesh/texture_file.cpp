@@ -1,5 +1,8 @@
 #include "render/mesh/texture_file.hpp"
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <opencv2/imgproc.hpp>
 
 #include "render/image/picture_file.hpp"
@@ -18,6 +21,18 @@ TextureLevel decode_texture(std::span<const std::uint8_t> file, const std::strin
          size(level.width, level.height) + " pixels");
   }
   return level;
+}
+
+std::shared_ptr<const Texture> read_texture(const std::string& path, const TextureUse& use, const WarningHandler& warn) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in || !std::filesystem::is_regular_file(path)) throw Error(path + ": is not there; expected a picture");
+  const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
+  try {
+    const std::span file(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+    return std::make_shared<Texture>(make_texture(path, decode_texture(file, path, warn), use.is_srgb, use.wrap));
+  } catch (const Error& error) {
+    throw Error(path + ": " + error.what());
+  }
 }
 
 int TextureList::number_of(const std::string& name, const TextureUse& use, const std::function<TextureLevel()>& decode) {

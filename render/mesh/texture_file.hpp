@@ -28,6 +28,9 @@ struct TextureUse {
   std::array<TextureWrap, 2> wrap{};
 };
 
+/// The texture in a file on disk. Throws Error naming the file.
+std::shared_ptr<const Texture> read_texture(const std::string& path, const TextureUse& use, const WarningHandler& warn);
+
 /// A mesh's textures. Each picture is decoded and has its mipmaps made once for each way that it is used.
 class TextureList {
  public:

@@ -26,6 +26,15 @@ TEST_F(GltfFile, AlphaModesAreNamedWhereTheyMatter) {
                                          AllOf(HasSubstr("alphaMode BLEND is not used"), HasSubstr("(material \"1\")"))));
 }
 
+TEST_F(GltfFile, TheOpacityOfVerticesIsNamed) {
+  Gltf gltf = triangle();
+  const int colors = gltf.vectors({1, 0, 0, 1, 1, 0, 0, 0.5f, 1, 0, 0, 1}, "VEC4", 4);
+  gltf.primitive = R"("attributes":{"POSITION":0,"COLOR_0":)" + std::to_string(colors) + R"(},"material":0)";
+  gltf.materials = R"({"name":"veil","alphaMode":"BLEND"})";
+  EXPECT_EQ(load(gltf).vertices[1].color, glm::vec3(1, 0, 0));
+  EXPECT_THAT(warnings_.all, ElementsAre(AllOf(HasSubstr("opacity of vertices"), HasSubstr("\"veil\""))));
+}
+
 TEST_F(GltfFile, AFeatureIsNamedOnceForAllItsMaterials) {
   std::string materials;
   for (const char* name : {"a", "b", "c", "d", "e"})

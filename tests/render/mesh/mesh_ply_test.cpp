@@ -1,4 +1,5 @@
 // What is read of PLY files, and what is refused.
+#include "render/image/picture_file.hpp"
 #include "render/mesh/mesh_file.hpp"
 #include "tests/support/test_files.hpp"
 
@@ -123,6 +124,32 @@ TEST_F(PlyFile, WhatIsWrongIsNamed) {
 TEST_F(PlyFile, PointsWithoutFacesAreCounted) {
   EXPECT_THAT(load_error("ply\nformat ascii 1.0\nelement vertex 2\n" + kPlace + "end_header\n0 0 0\n1 0 0\n"),
               AllOf(HasSubstr("no faces"), HasSubstr("2 points")));
+}
+
+std::string unfolded(const std::string& u, const std::string& v) {
+  return "ply\nformat ascii 1.0\ncomment TextureFile scan.png\nelement vertex 3\n" + kPlace + "property float " + u +
+         "\nproperty float " + v + "\nelement face 1\n" + kFace + "end_header\n0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n3 0 1 2\n";
+}
+
+TEST_F(PlyFile, TexturesOfVerticesAreReadAndVRunsDown) {
+  write_png(folder_ / "scan.png", cv::Mat(1, 1, CV_8UC3, cv::Scalar(10, 100, 200)));
+  for (const auto& [u, v] : {std::pair("texture_u", "texture_v"), std::pair("s", "t"), std::pair("u", "v")}) {
+    const Mesh mesh = load(unfolded(u, v));
+    ASSERT_EQ(mesh.textures.size(), 1u) << u;
+    EXPECT_TRUE(mesh.textures[0]->is_srgb);
+    EXPECT_EQ(mesh.textures[0]->levels[0].rgba[0], 200);
+    EXPECT_EQ(mesh.materials[0].base_color_texture.texture, 0);
+    EXPECT_EQ(mesh.materials[0].base_color, glm::vec3(1));
+    EXPECT_EQ(mesh.texture_coordinates[0].uv[0], glm::vec2(0, 1));
+    EXPECT_EQ(mesh.texture_coordinates[2].uv[0], glm::vec2(0, 0));
+  }
+  EXPECT_THAT(files_of_mesh(folder_ / "a.ply"), ElementsAre(folder_ / "a.ply", folder_ / "scan.png"));
+}
+
+TEST_F(PlyFile, ATextureThatIsNotThereIsLeftOut) {
+  const Mesh mesh = load(unfolded("s", "t"));
+  EXPECT_FALSE(mesh.has_textures());
+  EXPECT_THAT(warnings_.all, ElementsAre(AllOf(HasSubstr("a.ply"), HasSubstr("scan.png"), HasSubstr("is not there"))));
 }
 
 TEST_F(PlyFile, WhatIsNotUsedIsSaidOnce) {
