@@ -77,6 +77,7 @@ const tinygltf::Value* extension(const tinygltf::ExtensionMap& extensions, const
 
 /// A number in an object that may be missing (nullptr), or in an array in it.
 double number(const tinygltf::Value* object, const char* key, double otherwise);
+int whole_number(const tinygltf::Value* object, const char* key, int otherwise);  ///< otherwise too where it fits no int
 double number_at(const tinygltf::Value* object, const char* key, int index, double otherwise);
 
 }  // namespace catchlight::render::gltf

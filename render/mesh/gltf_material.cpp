@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "catchlight/color.hpp"
 #include "render/mesh/gltf.hpp"
@@ -14,6 +15,11 @@ const tinygltf::Value* extension(const tinygltf::ExtensionMap& extensions, const
 double number(const tinygltf::Value* object, const char* key, double otherwise) {
   if (!object || !object->Has(key) || !object->Get(key).IsNumber()) return otherwise;
   return object->Get(key).GetNumberAsDouble();
+}
+
+int whole_number(const tinygltf::Value* object, const char* key, int otherwise) {
+  const double value = number(object, key, otherwise);
+  return std::abs(value) <= std::numeric_limits<int>::max() ? static_cast<int>(value) : otherwise;
 }
 
 double number_at(const tinygltf::Value* object, const char* key, int index, double otherwise) {

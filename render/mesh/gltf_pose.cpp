@@ -80,8 +80,8 @@ std::vector<glm::dmat4> scene_from_instances(const Document& document, const tin
   if (!instancing || !instancing->Has("attributes")) return {scene_from_node};
   const tinygltf::Value& attributes = instancing->Get("attributes");
   const auto read = [&](const char* name, int components) {
-    const double accessor = number(&attributes, name, -1);
-    return accessor < 0 ? std::vector<float>() : read_floats(document, static_cast<int>(accessor), components);
+    const int accessor = whole_number(&attributes, name, -1);
+    return accessor < 0 ? std::vector<float>() : read_floats(document, accessor, components);
   };
   const std::vector<float> translation = read("TRANSLATION", 3), rotation = read("ROTATION", 4), scale = read("SCALE", 3);
   const std::size_t count = std::max({translation.size() / 3, rotation.size() / 4, scale.size() / 3});
@@ -111,6 +111,8 @@ std::vector<glm::dmat4> scene_from_skinned(const Document& document, const tinyg
     if (result.size() < count) result.resize(count, glm::dmat4(0)), sums.resize(count);
     for (std::size_t i = 0; i < 4 * count; ++i) {
       if (weights[i] == 0) continue;
+      if (!(indices[i] >= 0 && indices[i] < static_cast<float>(joints.size())))
+        throw Error(document.path + ": damaged glTF: a vertex hangs on a joint that its skin does not have");
       result[i / 4] += static_cast<double>(weights[i]) * joints.at(static_cast<std::size_t>(indices[i]));
       sums[i / 4] += static_cast<double>(weights[i]);
     }

@@ -66,7 +66,7 @@ MaterialTexture MaterialReader::texture(const Info& info, const char* what, bool
   result.texture = textures_.number_of("image " + std::to_string(source.source) + (image.uri.empty() ? "" : " " + image.uri), use,
                                        [&] { return decode(document_, source.source, warn_); });
   const tinygltf::Value* transform = extension(info.extensions, "KHR_texture_transform");
-  result.set = static_cast<int>(number(transform, "texCoord", info.texCoord));
+  result.set = whole_number(transform, "texCoord", info.texCoord);
   result.uv_transform = uv_transform(transform);
   return result;
 }
@@ -77,8 +77,8 @@ void MaterialReader::add_textures(const tinygltf::Material& source, Material& ma
   const tinygltf::Value* glossy = extension(source.extensions, "KHR_materials_pbrSpecularGlossiness");
   if (glossy && glossy->Has("diffuseTexture")) {
     tinygltf::TextureInfo diffuse;
-    diffuse.index = static_cast<int>(number(&glossy->Get("diffuseTexture"), "index", -1));
-    diffuse.texCoord = static_cast<int>(number(&glossy->Get("diffuseTexture"), "texCoord", 0));
+    diffuse.index = whole_number(&glossy->Get("diffuseTexture"), "index", -1);
+    diffuse.texCoord = whole_number(&glossy->Get("diffuseTexture"), "texCoord", 0);
     material.base_color_texture = texture(diffuse, "diffuse", true, name);
   }
   if (extension(source.extensions, "KHR_materials_unlit")) return;

@@ -58,6 +58,12 @@ TEST_F(GltfPose, JointsThatAreNotThereAreRefused) {
   EXPECT_NE(load_error(gltf).find("damaged glTF"), std::string::npos);
 }
 
+TEST_F(GltfPose, VerticesOnJointsThatTheSkinDoesNotHaveAreRefused) {
+  Gltf gltf = skinned(R"({"mesh":0,"skin":0},{})", kIdentity);
+  gltf.extra = R"("skins":[{"joints":[]}],)";
+  EXPECT_NE(load_error(gltf).find("a joint that its skin does not have"), std::string::npos);
+}
+
 TEST_F(GltfPose, MorphTargetsCountByTheirWeights) {
   Gltf gltf = triangle();
   const int target = gltf.vectors({0, 0, 2, 0, 0, 2, 0, 0, 4}, "VEC3", 3);
