@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <opencv2/imgcodecs.hpp>
 
 namespace catchlight::render {
 namespace {
@@ -103,6 +104,20 @@ TEST_F(GltfTexture, PicturesOfEveryKind) {
   EXPECT_THAT(first_texel(), ElementsAre(3, 2, 1, 4)) << "with opacity";
 }
 
+/// One pixel of magenta and yellow ink, as Adobe's programs write CMYK: inverted.
+TEST_F(GltfTexture, JpegsOfInksAreRead) {
+  const std::string jpeg =
+      "/9j/7gAOQWRvYmUAZAAAAAAA/9sAQwABAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEB"
+      "AQEBAQEBAQEBAQEB/8AAFAgAAQABBEMRAE0RAFkRAEsRAP/EABUAAQEAAAAAAAAAAAAAAAAAAAoL/8QAFBABAAAAAAAAAAAAAAAA"
+      "AAAAAP/aAA4EQwBNAFkASwAAPwB/Cf8Ap/5/D//Z";
+  const Mesh mesh = load(textured(kPainted, R"({"uri":"data:image/jpeg;base64,)" + jpeg + "\"}"));
+  const std::vector<std::uint8_t>& rgba = mesh.textures.at(0)->levels[0].rgba;
+  EXPECT_NEAR(rgba[0], 255, 2);
+  EXPECT_NEAR(rgba[1], 0, 2);
+  EXPECT_NEAR(rgba[2], 0, 2);
+  EXPECT_EQ(rgba[3], 255);
+}
+
 TEST_F(GltfTexture, PicturesThatAreTooLargeAreScaledDown) {
   cv::Mat wide(2, 16384, CV_8UC3, cv::Scalar(0, 0, 0));
   wide.colRange(0, 4).setTo(cv::Scalar(0, 0, 255));
@@ -112,6 +127,17 @@ TEST_F(GltfTexture, PicturesThatAreTooLargeAreScaledDown) {
   EXPECT_EQ(level.rgba[4], 255) << "the second texel is the third and fourth pixel's";
   EXPECT_EQ(level.rgba[8], 0);
   EXPECT_THAT(warnings_.all, testing::Contains(AllOf(HasSubstr("\"a.png\""), HasSubstr("16384 x 2"), HasSubstr("8192 x 1"))));
+}
+
+TEST_F(GltfTexture, JpegsThatAreTooLargeAreScaledDown) {
+  std::vector<std::uint8_t> jpeg;
+  cv::imencode(".jpg", cv::Mat(16, 16384, CV_8UC3, cv::Scalar::all(128)), jpeg);
+  write_text(folder_ / "a.jpg", std::string(jpeg.begin(), jpeg.end()));
+  const TextureLevel level = load(textured(kPainted, R"({"uri":"a.jpg"})")).textures.at(0)->levels[0];
+  EXPECT_EQ(level.width, 8192);
+  EXPECT_EQ(level.height, 8);
+  EXPECT_NEAR(level.rgba[0], 128, 1);
+  EXPECT_THAT(warnings_.all, testing::Contains(HasSubstr("16384 x 16")));
 }
 
 TEST_F(GltfTexture, DataThatIsBrokenIsNamed) {
