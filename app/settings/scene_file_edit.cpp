@@ -208,7 +208,27 @@ std::string edited_scene_text(const std::string& text, const std::string& path, 
   return scene.text();
 }
 
+namespace {
+
+/// What is protected stays, and so does what a scene in another folder would not find.
+void check_target(const std::filesystem::path& from, const std::filesystem::path& to) {
+  const auto folder = [](const std::filesystem::path& file) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(file).parent_path());
+  };
+  if (folder(from) != folder(to))
+    throw Error(to.string() + ": the scene's paths start from its own folder; expected a file in " + folder(from).string());
+  constexpr auto kWrite =
+      std::filesystem::perms::owner_write | std::filesystem::perms::group_write | std::filesystem::perms::others_write;
+  std::error_code missing;
+  const std::filesystem::file_status status = std::filesystem::status(to, missing);
+  if (exists(status) && (status.permissions() & kWrite) == std::filesystem::perms::none)
+    throw Error(to.string() + ": is write-protected; make it writable, or save under another name");
+}
+
+}  // namespace
+
 void save_scene_file(const std::string& from, const std::string& to, const SceneSettings& before, const SceneSettings& after) {
+  check_target(from, to);
   std::ifstream file(from, std::ios::binary);
   std::ostringstream text;
   if (file) text << file.rdbuf();

@@ -143,8 +143,13 @@ TEST(SaveSceneFile, LeavesTheOldFileWhereItCannotWrite) {
   const std::string path = folder.write("scene.toml", kScene);
   SceneSettings after = read_scene(kScene);
   set_parameter_from_text(after, "tag.id", "9");
-  EXPECT_THAT(message_of<Error>([&] { save_scene_file(path, folder.path("none/scene.toml"), read_scene(kScene), after); }),
-              HasSubstr("none"));
+  const auto refusal = [&](const std::string& to) {
+    return message_of<Error>([&] { save_scene_file(path, to, read_scene(kScene), after); });
+  };
+  EXPECT_THAT(refusal(folder.path("none/scene.toml")), HasSubstr("none/scene.toml: the scene's paths start from its own folder"));
+  std::filesystem::permissions(path, std::filesystem::perms::owner_read);
+  EXPECT_THAT(refusal(path), HasSubstr("scene.toml: is write-protected"));
+  std::filesystem::permissions(path, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
   save_scene_file(path, path, read_scene(kScene), after);
   std::ifstream file(path);
   std::ostringstream text;
