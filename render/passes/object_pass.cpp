@@ -1,6 +1,7 @@
 #include "render/passes/object_pass.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -165,7 +166,7 @@ void ObjectPass::draw(const ObjectTarget& target, const PixelRect& rect, int fra
     program_.set("material_index", batch.material);
     program_.set("first_triangle", batch.first_index / 3);
     const auto offset = static_cast<std::uintptr_t>(batch.first_index) * sizeof(std::uint32_t);
-    glDrawElements(GL_TRIANGLES, batch.index_count, GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset));
+    glDrawElements(GL_TRIANGLES, batch.index_count, GL_UNSIGNED_INT, std::bit_cast<const void*>(offset));
   }
   glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
   glDisable(GL_DEPTH_TEST);
