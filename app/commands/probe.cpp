@@ -19,6 +19,7 @@
 #include "catchlight/util/enum_names.hpp"
 #include "catchlight/util/text.hpp"
 #include "render/image/picture_file.hpp"
+#include "render/made_probe/made_probe.hpp"
 #include "render/probe/probe_split.hpp"
 #include "render/render_scene.hpp"
 
@@ -35,6 +36,7 @@ struct ProbeArguments {
 };
 
 render::Probe load(const ProbeArguments& arguments, Log& log) {
+  if (render::is_made_probe(arguments.input)) return render::make_probe(arguments.input);
   render::ProbeLoadOptions options;
   if (!arguments.layout_in.empty()) options.layout = render::probe_layout_from_name(arguments.layout_in);
   options.strict = arguments.strict;
@@ -141,6 +143,15 @@ void convert(const ProbeArguments& arguments, Log& log) {
   output.commit();
 }
 
+/// In full precision: what a scene of the same name is lit by.
+void make(const ProbeArguments& arguments, Log&) {
+  if (!arguments.output.ends_with(".exr"))
+    throw UsageError(arguments.output + ": a probe is made in float; give -o a name that ends in .exr");
+  PendingFile output = pending_output(arguments.output, arguments.overwrite);
+  render::save_probe(output.pending_path(), render::make_probe(arguments.input), render::ExrPrecision::full);
+  output.commit();
+}
+
 std::string sh_text(const ProbeArguments& arguments, const render::ShRgb& coefficients) {
   std::string text =
       "# Spherical harmonics of " + arguments.input + ", " + std::to_string(arguments.bands) +
@@ -215,7 +226,8 @@ CLI::App& add_probe_command(CLI::App& parent, const char* name, const char* help
                             const std::shared_ptr<ProbeArguments>& arguments, Run run, Context& context) {
   CLI::App& command = *parent.add_subcommand(name, help);
   command.fallthrough();
-  command.add_option("FILE", arguments->input, "OpenEXR or Radiance HDR")->required();
+  command.add_option("FILE", arguments->input, "OpenEXR or Radiance HDR, or the name of one that is made (probe make)")
+      ->required();
   command.add_option("--layout-in", arguments->layout_in,
                      "Layout of FILE, where it does not say: " + quoted_list(name_list<render::ProbeLayout>()));
   command.add_flag("--strict", arguments->strict, "Refuse NaN, infinite and negative texels instead of taking them as 0");
@@ -250,6 +262,21 @@ void add_split(CLI::App& command, const std::shared_ptr<ProbeArguments>& argumen
   add_overwrite(parts, *arguments);
   show_examples(parts,
                 {"catchlight probe split room.exr", "catchlight probe split room.exr --lights lights.exr --rest rest.exr"});
+}
+
+void add_make(CLI::App& command, const std::shared_ptr<ProbeArguments>& arguments, Context& context) {
+  CLI::App& made = *command.add_subcommand("make", "A probe that needs no photographs: overcast, studio or sky");
+  made.fallthrough();
+  made.footer(
+      "As `probe.image` of a scene takes it by name. A sky takes values, all of which may be left out:\n"
+      "sky:sun_elevation_deg=35,sun_azimuth_deg=135,turbidity=3 (azimuth from north, the tag's far side, over east; 2 is very\n"
+      "clear, 10 hazy), or sky:date=2026-06-21T12:00Z,latitude_deg=48,longitude_deg=11. docs/probes.md shows them.");
+  made.add_option("NAME", arguments->input, quoted_list({render::kMadeProbes.begin(), render::kMadeProbes.end()}))->required();
+  made.add_option("-o,--output", arguments->output, "OpenEXR file")->required();
+  add_overwrite(made, *arguments);
+  made.callback([arguments, &context] { make(*arguments, context.log); });
+  show_examples(made, {"catchlight probe make studio -o studio.exr",
+                       "catchlight probe make sky:date=2026-06-21T12:00Z,latitude_deg=48,longitude_deg=11 -o noon.exr"});
 }
 
 void add_ball(CLI::App& command, const std::shared_ptr<ProbeArguments>& arguments, Context& context) {
@@ -287,6 +314,7 @@ void set_up_probe(CLI::App& command, Context& context) {
   command.require_subcommand(1);
   const auto arguments = std::make_shared<ProbeArguments>();
   add_probe_merge(command, context);
+  add_make(command, arguments, context);
 
   CLI::App& info = add_probe_command(command, "info", "Size, range, where the light comes from", arguments, print_info, context);
   add_bands(info, arguments->bands);

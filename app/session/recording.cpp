@@ -179,8 +179,7 @@ std::vector<std::string> files_of(const Recording& recording) {
   for (const auto& file : {recording.scene_file, recording.camera_file, recording.poses_csv, recording.expected_toml})
     if (file) files.push_back(*file);
   for (const SceneSettings::Object& object : scene.objects) files.push_back(scene.resolve(object.mesh));
-  if (!scene.probe.image.empty()) files.push_back(scene.resolve(scene.probe.image));
-  for (const char* key : {"exposure.response", "glare.aperture"}) files.push_back(word_or_path(scene, key));
+  for (const char* key : {"probe.image", "exposure.response", "glare.aperture"}) files.push_back(word_or_path(scene, key));
   return files;
 }
 

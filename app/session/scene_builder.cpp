@@ -9,6 +9,7 @@
 #include "catchlight/util/file_stamp.hpp"
 #include "catchlight/util/text.hpp"
 #include "render/cache/content_cache.hpp"
+#include "render/made_probe/made_probe.hpp"
 #include "render/math/sh.hpp"
 #include "render/mesh/bounds.hpp"
 #include "render/mesh/mesh_file.hpp"
@@ -72,6 +73,7 @@ std::string text_of(const glm::dvec3& v) {
 
 std::string probe_key(const SceneSettings& settings) {
   const SceneSettings::Probe& probe = settings.probe;
+  if (render::is_made_probe(probe.image)) return probe.image + (is_light_guessed(settings) ? " guessed" : "");
   return file_stamp(settings.resolve(probe.image)) + (probe.layout ? name_of(*probe.layout) : "auto") +
          (probe.strict ? " strict" : "");
 }
@@ -169,8 +171,10 @@ void SceneBuilder::renew(ScenePart name, const std::string& key, const Make& mak
 
 void SceneBuilder::load_parts(const SceneSettings& settings, const WarningHandler& warn) {
   built_.plan.clear();
-  renew(ScenePart::probe, probe_key(settings), [&](auto&) {
+  renew(ScenePart::probe, probe_key(settings), [&](auto& plan) {
     built_.probe = load_scene_probe(settings, warn);
+    if (render::is_made_probe(settings.probe.image))
+      plan.push_back({"probe", settings.probe.image, is_light_guessed(settings) ? "a guess: none is given" : "set by hand"});
     probe_content_ = render::content_key(built_.probe);
   });
   // Which files there are is asked only where a change shows in those that are known: to find them, they must be read.

@@ -1,8 +1,10 @@
 #include "app/session/scene_files.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "catchlight/util/text.hpp"
+#include "render/made_probe/made_probe.hpp"
 #include "render/mesh/base_color.hpp"
 #include "render/mesh/bounds.hpp"
 #include "render/mesh/mesh_file.hpp"
@@ -57,6 +59,17 @@ void hide_below_plane(const SceneSettings::Object& object, render::Mesh& part, c
   }
 }
 
+/// A name that is no file's and has no extension is likely to be meant for a probe that is made.
+void check_name(const std::string& path) {
+  const std::string name = std::filesystem::path(path).filename().string();
+  if (name.substr(0, name.find(':')).find('.') != std::string::npos || std::filesystem::exists(path)) return;
+  try {
+    render::make_probe(name);
+  } catch (const Error& error) {
+    throw Error(path + ": there is no such file; " + error.what());
+  }
+}
+
 /// The camera's up is -y, and it looks along probe -z.
 const glm::dmat3 kCameraFromUpright(glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0, 0, -1));
 
@@ -84,12 +97,21 @@ render::Mesh load_objects(const SceneSettings& settings, const WarningHandler& w
 }
 
 render::Probe load_scene_probe(const SceneSettings& settings, const WarningHandler& warn) {
-  if (settings.probe.image.empty())
-    throw Error("the scene has no light: give [probe] image = \"FILE\" in the scene file, or --probe.image FILE");
+  const std::string& image = settings.probe.image;
+  if (is_light_guessed(settings) && warn)
+    warn("no light probe is given: \"" + image +
+         "\" is a guess; give [probe] image = \"FILE\" in the scene file, or --probe.image " +
+         "FILE, or say \"overcast\", \"studio\" or \"sky\" for FILE");
+  if (render::is_made_probe(image)) return render::make_probe(image);
+  check_name(settings.resolve(image));
   render::ProbeLoadOptions options;
   options.layout = settings.probe.layout;
   options.strict = settings.probe.strict;
-  return render::load_probe(settings.resolve(settings.probe.image), options, warn);
+  return render::load_probe(settings.resolve(image), options, warn);
+}
+
+bool is_light_guessed(const SceneSettings& settings) {
+  return !settings.is_by_hand("probe.image") && settings.probe.image == SceneSettings().probe.image;
 }
 
 LightOrientation light_orientation(const SceneSettings::Probe& probe) {

@@ -19,8 +19,12 @@ glm::dvec3 scene_in_tag_m(const SceneSettings& settings);
 /// and as render::load_mesh.
 render::Mesh load_objects(const SceneSettings& settings, const WarningHandler& warn);
 
-/// The probe as its file has it: probe.ev is not applied. Throws Error where the scene names none, and as render::load_probe.
+/// The probe as its file has it, or as it is made: probe.ev is not applied. Warns where the scene names none. Throws Error as
+/// render::load_probe and render::make_probe.
 render::Probe load_scene_probe(const SceneSettings& settings, const WarningHandler& warn);
+
+/// Whether the scene names no probe, so that its light is the program's guess.
+bool is_light_guessed(const SceneSettings& settings);
 
 /// How the light lies. The light frame is the frame of what the light is fixed to (the tag, or the camera) without the probe's
 /// yaw, so that nothing that is made of the probe in the light frame depends on the yaw.

@@ -87,8 +87,10 @@ std::vector<Parameter> probe_parameters() {
   using enum ChangeCost;
   using enum Scale;
   return {
-      {"probe.image", "", light, "The light probe is read from this file: OpenEXR or Radiance HDR, scene-linear, Rec. 709.",
-       PathKind{[](auto& s) { return &s.probe.image; }}},
+      {"probe.image", "", light,
+       "The light probe is read from this file: OpenEXR or Radiance HDR, scene-linear, Rec. 709; or it is made: `overcast`, "
+       "`studio` (three softboxes) or `sky` (a clear one with its sun, by values after a colon; docs/probes.md).",
+       PathKind{[](auto& s) { return &s.probe.image; }, {"overcast", "studio", "sky", "sky:sun_elevation_deg=35,turbidity=3"}}},
       {"probe.layout", "", light,
        "Directions lie in the probe's image in this way; \"auto\" goes by what the file says, else by the image's shape.",
        ChoiceKind{[](auto& s) { return &s.probe.layout; }}},

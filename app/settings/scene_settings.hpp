@@ -102,7 +102,7 @@ struct SceneSettings {
   } receiver;
 
   struct Probe {
-    std::string image;
+    std::string image = "studio";
     std::optional<render::ProbeLayout> layout;  ///< empty: as the file says, else by its shape
     render::UpAxis up = render::UpAxis::z;
     double yaw_deg = 0;

@@ -175,7 +175,7 @@ void ShotPlayer::draw_extras(const FrameExtras& extras, const FrameJob& job, con
 
 /// All that is read more than once. Not the footage: it is too large to be read anew whenever it grows.
 void ShotPlayer::watch_files(const SceneSettings& settings) {
-  std::vector<std::string> files{settings.resolve(settings.probe.image), word_or_path(settings, "glare.aperture"),
+  std::vector<std::string> files{word_or_path(settings, "probe.image"), word_or_path(settings, "glare.aperture"),
                                  word_or_path(settings, "exposure.response"), recording_.camera_file.value_or("")};
   for (const SceneSettings::Object& object : settings.objects) files.push_back(settings.resolve(object.mesh));
   if (session_)

@@ -1,9 +1,10 @@
-// `catchlight probe split`: a probe as its lights and its rest.
+// `catchlight probe split`: a probe as its lights and its rest. `probe make`: probes that need no file.
 #include <gmock/gmock.h>
 
 #include <regex>
 
 #include "catchlight/image.hpp"
+#include "render/made_probe/made_probe.hpp"
 #include "render/probe/probe.hpp"
 #include "tests/support/run_command.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -156,6 +157,37 @@ TEST(ProbeSplit, OptionsOutOfRangeAreNamed) {
     EXPECT_EQ(result.exit_code, kUsage);
     EXPECT_THAT(result.error, HasSubstr(option[0]));
   }
+}
+
+TEST(ProbeMake, WritesWhatASceneIsLitBy) {
+  const TemporaryFolder folder;
+  for (const std::string name : {"overcast", "studio", "sky:sun_elevation_deg=35,turbidity=4"}) {
+    const CommandResult result = run_catchlight({"probe", "make", name, "-o", folder.path("made.exr"), "-y"});
+    ASSERT_EQ(result.exit_code, 0) << result.error;
+    const render::Probe written = render::load_probe(folder.path("made.exr"), {}, {});
+    EXPECT_TRUE(written.image.data == render::make_probe(name).image.data) << name;
+  }
+}
+
+TEST(ProbeMake, RefusesInOneLine) {
+  const TemporaryFolder folder;
+  const std::string made = folder.path("made.exr");
+  const auto error = [](const std::string& name, const std::string& output) {
+    const CommandResult result = run_catchlight({"probe", "make", name, "-o", output});
+    EXPECT_NE(result.exit_code, 0) << name;
+    EXPECT_EQ(std::ranges::count(result.error, '\n'), 1) << result.error;
+    return result.error;
+  };
+  EXPECT_THAT(error("studo", made), HasSubstr("did you mean \"studio\"?"));
+  EXPECT_THAT(error("sky:sun_elevation_deg=-3", made), HasSubstr("the sky's model has its sun above the horizon"));
+  EXPECT_THAT(error("sky", folder.path("made.png")), HasSubstr("ends in .exr"));
+  folder.write("made.exr", "kept");
+  EXPECT_THAT(error("sky", made), HasSubstr("made.exr"));
+}
+
+// What reads a probe takes its name as well.
+TEST(ProbeMake, NamesStandForFiles) {
+  EXPECT_THAT(run_catchlight({"probe", "info", "overcast"}).output, HasSubstr("irradiance up        3.142 3.142 3.142"));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "app/session/scene_builder.hpp"
 #include "app/settings/parameters.hpp"
+#include "render/made_probe/made_probe.hpp"
 #include "render/math/sh.hpp"
 #include "tests/support/parameter_values.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -15,7 +16,9 @@
 namespace catchlight::app {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 using tests::message_of;
 using tests::TemporaryFolder;
 
@@ -239,12 +242,29 @@ TEST_F(SceneBuild, PlanSaysWhatWasChosenAndWhy) {
   EXPECT_EQ(entry(build(), "bands"), "2: default");
 }
 
+TEST_F(SceneBuild, LightThatNobodyChoseIsAGuessAndSaidToBeOne) {
+  std::string said;
+  scene_.probe.image = SceneSettings().probe.image;
+  SceneBuilder guessing;
+  const auto take = [&](const std::string& warning) { said += warning; };
+  const BuiltScene& built = guessing.load(scene_, take);
+  EXPECT_THAT(said, AllOf(HasSubstr("\"studio\" is a guess"), HasSubstr("--probe.image FILE")));
+  EXPECT_EQ(built.plan.front().choice + ": " + built.plan.front().reason, "probe: a guess: none is given");
+  EXPECT_TRUE(built.probe.image.data == render::make_probe("studio").image.data);
+  said.clear();
+  scene_.by_hand.insert("probe.image");
+  EXPECT_EQ(guessing.load(scene_, take).plan.front().reason, "set by hand");
+  EXPECT_EQ(said, "");
+}
+
 TEST_F(SceneBuild, MissingPiecesSayHowToSupplyThem) {
   const auto built = [this] { build(); };
   scene_.probe.image = "none.exr";
   EXPECT_THAT(message_of<Error>(built), HasSubstr(folder_.path("none.exr")));
-  scene_.probe.image = "";
-  EXPECT_THAT(message_of<Error>(built), HasSubstr("--probe.image FILE"));
+  scene_.probe.image = folder_.path("studo");
+  EXPECT_THAT(message_of<Error>(built), AllOf(StartsWith(folder_.path("studo")), HasSubstr("did you mean \"studio\"?")));
+  scene_.probe.image = "sky:turbidity=40";
+  EXPECT_THAT(message_of<Error>(built), StartsWith("sky:turbidity=40: turbidity is 40"));
   scene_.probe.image = "probe.exr";
   scene_.objects[0].mesh = "none.obj";
   EXPECT_THAT(message_of<Error>(built), HasSubstr(folder_.path("none.obj")));

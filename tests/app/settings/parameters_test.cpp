@@ -166,7 +166,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"receiver.albedo", "0.8", "--receiver.albedo is \"0.8\"; expected three numbers from 0 to 1"},
         Refusal{"receiver.albedo", "0,0,2", "--receiver.albedo is [0,0,2]; expected three numbers from 0 to 1"},
         Refusal{"receiver.albedo", "0,nan,0", "--receiver.albedo is [0,nan,0]; expected three numbers from 0 to 1"},
-        Refusal{"probe.image", "", "--probe.image is \"\"; expected the name of a file"},
+        Refusal{"probe.image", "",
+                "--probe.image is \"\"; expected \"overcast\", \"studio\", \"sky\", \"sky:sun_elevation_deg=35,turbidity=3\", or "
+                "the name of a file"},
         Refusal{"glare.enabld", "true", "--glare.enabld: there is no such parameter; `catchlight params` lists them"}));
 
 TEST(ParameterFromText, UnknownFamilyNamesThoseThereAre) {

@@ -155,7 +155,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"RealForInteger", "[quality]\nbands = 6.0\n", "2:9: quality.bands is 6; expected a whole number from 1 to 10"},
         Mistake{"TableForNumber", "[tag]\nsize_m = { m = 1 }\n",
                 "2:10: tag.size_m is a table; expected a number from 0.001 to 100 m"},
-        Mistake{"DateForText", "[probe]\nimage = 2020-01-01\n", "2:9: probe.image is a date; expected the name of a file"},
+        Mistake{"DateForText", "[probe]\nimage = 2020-01-01\n",
+                "2:9: probe.image is a date; expected \"overcast\", \"studio\", \"sky\", "
+                "\"sky:sun_elevation_deg=35,turbidity=3\", or the name of a file"},
         Mistake{"ValueForTable", "glare = true\n", "1:9: 'glare' is a boolean; expected a table"},
         Mistake{"OutOfRange", "[tag]\nsize_m = -0.1\n", "2:10: tag.size_m is -0.1; expected a number from 0.001 to 100 m"},
         Mistake{"NotANumber", "[probe]\nev = nan\n", "2:6: probe.ev is nan; expected a number from -30 to 30 EV"},
