@@ -11,6 +11,7 @@
 #include "render/gl/gl_context.hpp"
 #include "render/gl/pass_clock.hpp"
 #include "render/gl/shader_library.hpp"
+#include "render/mesh/base_color.hpp"
 #include "render/mesh/bounds.hpp"
 #include "render/mesh/mesh.hpp"
 #include "render/object_layers.hpp"
@@ -39,6 +40,12 @@ int supported_samples(int wanted) {
   GLint limit = 1;
   glGetIntegerv(GL_MAX_SAMPLES, &limit);
   return std::clamp(wanted, 1, static_cast<int>(limit));
+}
+
+/// OpenGL draws no textures yet: their colours go to the vertices.
+Mesh untextured(Mesh mesh) {
+  fold_base_color_textures(mesh);
+  return mesh;
 }
 
 }  // namespace
@@ -107,7 +114,8 @@ GlCompositor::Impl::Impl(const RenderScene& scene, const CompositorSettings& wan
       shaders(*library),
       light(shaders),
       lights(static_cast<int>(scene.lights.size()), bounds, shaders),
-      object(scene.mesh, LitPoints("object", scene.transfer.object, scene.transfer.object_direct, sh_count(scene.transfer.bands)),
+      object(untextured(scene.mesh),
+             LitPoints("object", scene.transfer.object, scene.transfer.object_direct, sh_count(scene.transfer.bands)),
              scene.reflections, scene.rest_reflections, kRayStartShare * kSkinShare * bounds.rounded_diagonal_m(), shaders),
       object_blur(shaders),
       shadow_blur(shaders),

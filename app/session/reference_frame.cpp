@@ -7,6 +7,7 @@
 #include "app/support/output_file.hpp"
 #include "catchlight/plate.hpp"
 #include "render/image/picture_file.hpp"
+#include "render/mesh/base_color.hpp"
 #include "render/reference/path_tracer.hpp"
 
 namespace catchlight::app {
@@ -37,6 +38,7 @@ PixelExposure exposure_of(const render::FrameView& view) {
 reference::ReferenceScene traced_scene(const SceneSettings& settings, const BuiltScene& built, const render::FrameView& view) {
   reference::ReferenceScene scene;
   scene.mesh = built.scene.mesh;
+  render::fold_base_color_textures(scene.mesh);
   scene.probe = built.probe;
   for (float& value : scene.probe.image.data) value *= static_cast<float>(built.light_gain);
   scene.tag_from_probe = view.tag_from_light * built.orientation.light_from_probe;

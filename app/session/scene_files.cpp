@@ -5,7 +5,6 @@
 
 #include "catchlight/util/text.hpp"
 #include "render/made_probe/made_probe.hpp"
-#include "render/mesh/base_color.hpp"
 #include "render/mesh/bounds.hpp"
 #include "render/mesh/mesh_file.hpp"
 #include "render/mesh/test_objects.hpp"
@@ -36,11 +35,7 @@ glm::dmat4 scene_from(const SceneSettings& settings, const SceneSettings::Object
 render::Mesh placed_object(const SceneSettings& settings, const SceneSettings::Object& object, const WarningHandler& warn) {
   const glm::dmat4 scene_from_object = scene_from(settings, object);
   const std::optional<render::Mesh> shape = render::test_object(object.mesh, settings.tag.size_m);
-  if (!shape) {
-    render::Mesh mesh = render::load_mesh(settings.resolve(object.mesh), warn);
-    render::fold_base_color_textures(mesh);
-    return render::transformed(mesh, scene_from_object);
-  }
+  if (!shape) return render::transformed(render::load_mesh(settings.resolve(object.mesh), warn), scene_from_object);
   render::Mesh placed = render::transformed(*shape, scene_from_object);
   const float lift_m = static_cast<float>(scene_from_object[3].z) - render::bounds_of(placed).min_m.z;
   for (render::Vertex& vertex : placed.vertices) vertex.position_m.z += lift_m;

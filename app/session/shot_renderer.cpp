@@ -94,6 +94,8 @@ void ShotRenderer::restart() {
 
 std::unique_ptr<render::Compositor> ShotRenderer::make_compositor(const render::RenderScene& scene,
                                                                   const render::CompositorSettings& settings) const {
+  if (context_ && scene.mesh.has_textures())
+    log_.warn("OpenGL draws base colour textures only, as finely as the mesh is cut; --renderer cpu draws all per pixel");
   if (context_) return std::make_unique<render::GlCompositor>(scene, settings, shaders_);
   return std::make_unique<render::CpuCompositor>(scene, settings);
 }

@@ -62,6 +62,17 @@ std::vector<glm::vec3> vertex_base_colors(const Mesh& mesh) {
   return colors;
 }
 
+std::vector<glm::vec3> vertex_diffuse_albedos(const Mesh& mesh) {
+  const std::vector<int> materials = materials_of_vertices(mesh);
+  std::vector<glm::vec3> albedos = vertex_base_colors(mesh);
+  for (std::size_t v = 0; v < albedos.size(); ++v) {
+    if (materials[v] == kNone) continue;
+    const Material& material = mesh.materials[static_cast<std::size_t>(materials[v])];
+    albedos[v] *= 1 - material.metallic * texture_color(mesh, material.metallic_roughness_texture, v, {}).b;
+  }
+  return albedos;
+}
+
 void fold_base_color_textures(Mesh& mesh) {
   const std::vector<int> materials = materials_of_vertices(mesh);
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {

@@ -54,13 +54,6 @@ void note_alpha(const tinygltf::Material& material, const std::string& name, Unu
 }
 
 void note_maps(const tinygltf::Material& material, const std::string& name, UnusedFeatures& unused) {
-  const tinygltf::PbrMetallicRoughness& pbr = material.pbrMetallicRoughness;
-  if (pbr.baseColorTexture.index >= 0)
-    unused.add("base colour maps are looked up at the vertices only: they are as sharp as the mesh is fine", name);
-  if (pbr.metallicRoughnessTexture.index >= 0) unused.add("metallic-roughness maps are not used", name);
-  if (material.normalTexture.index >= 0) unused.add("normal maps are not used", name);
-  if (material.occlusionTexture.index >= 0) unused.add("occlusion maps are not used: occlusion is computed", name);
-  if (material.emissiveTexture.index >= 0) unused.add("emissive maps are not used: all of it shines", name);
   const auto specular = material.extensions.find("KHR_materials_specular");
   if (specular != material.extensions.end() &&
       (specular->second.Has("specularTexture") || specular->second.Has("specularColorTexture")))

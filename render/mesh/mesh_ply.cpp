@@ -90,7 +90,6 @@ class PlyReader {
     }
     mesh.materials[0].base_color_texture.texture = 0;
     if (!has_member_[kRed]) mesh.materials[0].base_color = glm::vec3(1);
-    unused_.add("base colour maps are looked up at the vertices only: they are as sharp as the mesh is fine");
   }
 
   void begin_vertices(const PlyElement& element) {

@@ -30,14 +30,9 @@ bool is_bump(std::string_view key) {
   return key == "bump" || key == "map_bump" || key == "map_Bump" || key == "norm";
 }
 
-/// Textures are read, but shown as colours of the vertices only, or not at all.
 void note_map(std::string_view key, const Material& material, UnusedFeatures& unused) {
-  if (key == "map_Kd") {
-    if (material.base_color_texture.is_used())
-      unused.add("base colour maps are looked up at the vertices only: they are as sharp as the mesh is fine", material.name);
-  } else if (is_map(key)) {
-    unused.add("maps (" + std::string(key) + ") are not used", material.name);
-  }
+  const bool is_drawn = key == "map_Kd" || key == "map_Ke" || (is_bump(key) && material.normal_texture.is_used());
+  if (is_map(key) && !is_drawn) unused.add("maps (" + std::string(key) + ") are not used", material.name);
 }
 
 glm::vec3 color(const TextLines& lines) {

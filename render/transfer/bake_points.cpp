@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "render/mesh/base_color.hpp"
 #include "render/mesh/bounds.hpp"
 
 namespace catchlight::render {
@@ -10,20 +11,6 @@ namespace {
 // Rays start this share of the mesh's size above the surface: a hundred times the rounding of its coordinates, a hundredth of a
 // pixel.
 constexpr float kLift = 1e-5f;
-
-// A vertex that triangles of several materials share has the first one's.
-std::vector<glm::vec3> diffuse_albedos(const Mesh& mesh) {
-  std::vector<glm::vec3> albedo(mesh.vertices.size(), glm::vec3(0));
-  std::vector<bool> known(mesh.vertices.size());
-  for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
-    const std::uint32_t vertex = mesh.indices[i];
-    if (known[vertex]) continue;
-    known[vertex] = true;
-    const Material& material = mesh.materials[mesh.triangle_material[i / 3]];
-    albedo[vertex] = material.base_color * mesh.vertices[vertex].color * (1.0f - material.metallic);
-  }
-  return albedo;
-}
 
 std::vector<char> diffuse_vertices(const Mesh& mesh, const std::vector<glm::vec3>& albedo) {
   std::vector<char> is_diffuse(mesh.vertices.size());
@@ -50,7 +37,7 @@ BakePoints::BakePoints(const Mesh& mesh_tag, const ReceiverGrid& grid, const Tra
       grid_(grid),
       options_(options),
       scene_(mesh_tag),
-      albedo_(diffuse_albedos(mesh_tag)),
+      albedo_(vertex_diffuse_albedos(mesh_tag)),
       is_diffuse_(diffuse_vertices(mesh_tag, albedo_)) {
   const Bounds bounds = bounds_of(mesh_tag);
   middle_m_ = bounds.middle_m();

@@ -1,6 +1,7 @@
 #include "catchlight/error.hpp"
 #include "catchlight/progress.hpp"
 #include "render/cache/content_cache.hpp"
+#include "render/mesh/base_color.hpp"
 #include "render/transfer/transfer.hpp"
 
 namespace catchlight::render {
@@ -18,6 +19,7 @@ void add_scene(ContentHash& hash, const Mesh& mesh) {
     hash.add(material.base_color);
     hash.add(material.metallic);
   }
+  if (mesh.has_textures()) hash.add(vertex_diffuse_albedos(mesh));
 }
 
 void archive(CacheStream& file, Transfer& transfer) {

@@ -39,6 +39,18 @@ TEST(BaseColor, WithoutTexturesIsThatOfMaterialAndVertex) {
   for (const glm::vec3& color : vertex_base_colors(mesh)) EXPECT_EQ(color, glm::vec3(0.5f, 0.5f, 1));
 }
 
+TEST(BaseColor, AlbedoIsWhatMetalLeavesOfIt) {
+  Mesh mesh = striped_square(4);
+  mesh.materials[0].metallic = 0.5f;
+  for (const glm::vec3& albedo : vertex_diffuse_albedos(mesh))
+    EXPECT_LT(glm::distance(albedo, 0.5f * glm::vec3(0.25f, 0.25f, 0.5f)), 0.01f);
+  mesh.materials[0].metallic_roughness_texture.texture = 0;
+  for (TextureCoordinates& place : mesh.texture_coordinates) place.uv[1] = glm::vec2(0.5f / 64);
+  mesh.materials[0].metallic_roughness_texture.set = 1;
+  for (const glm::vec3& albedo : vertex_diffuse_albedos(mesh))
+    EXPECT_LT(glm::distance(albedo, glm::vec3(0.25f, 0.25f, 0.5f)), 0.02f) << "the texture says that it is no metal";
+}
+
 TEST(BaseColor, FoldedTexturesAreTheTexelsAtTheVertices) {
   Mesh mesh = striped_square(1);
   mesh.texture_coordinates[0].uv[0] = {1.5f / 64, 0.5f};
