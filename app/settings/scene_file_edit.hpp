@@ -14,8 +14,8 @@ std::string edited_scene_text(const std::string& text, const std::string& path, 
                               const SceneSettings& after);
 
 /// Writes edited_scene_text of the file `from` to `to`, whole or not at all: where the disk is full, the old file stays. Throws
-/// Error naming the file, also for one that is write-protected, and for one in another folder: the scene's paths start from its
-/// own.
+/// Error naming the file, also for one that is write-protected. Paths are written as `after` has them: from another folder they
+/// name other files.
 void save_scene_file(const std::string& from, const std::string& to, const SceneSettings& before, const SceneSettings& after);
 
 }  // namespace catchlight::app

@@ -117,6 +117,11 @@ void TuneWindow::picture(const std::string& path) {
 
 bool TuneWindow::write_scene(const std::string& to) {
   try {
+    const auto folder = [](const std::string& file) {
+      return std::filesystem::weakly_canonical(std::filesystem::absolute(file).parent_path());
+    };
+    if (folder(scene_file()) != folder(to))
+      throw Error(to + ": the scene's paths start from its own folder; expected a file in " + folder(scene_file()).string());
     save_scene_file(scene_file(), to, history_->file(), history_->now());
     message_ = "saved " + to;
     return true;
