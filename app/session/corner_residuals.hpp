@@ -19,7 +19,7 @@ struct CornerResiduals {
   std::array<glm::dvec2, 4> seen_px{};   ///< found in this frame alone, by the tag's outer edges
 };
 
-/// Of every tag of the target that is detected in the frame. Independent of what the track knows of other frames.
+/// The residuals of every tag of the target that is detected in the frame. They do not depend on what the track knows of others.
 std::vector<CornerResiduals> corner_residuals(const Frame& frame, const TrackRow& row, const CameraModel& camera,
                                               const SceneSettings& scene);
 

@@ -39,8 +39,8 @@ double perez(const Five& p, double from_zenith_rad, double from_sun_rad) {
   return (1 + p[0] * std::exp(p[1] / cos_zenith)) * (1 + p[2] * std::exp(p[3] * from_sun_rad) + p[4] * cos_sun * cos_sun);
 }
 
-/// Of 380 to 750 nm in steps of 10: the sun's radiance above the air in W / (cm^2 um sr), over 10, and how much ozone takes, per
-/// cm (the paper's table 2).
+/// From 380 to 750 nm in steps of 10: the sun's radiance above the air in W / (cm^2 um sr), over 10, and how much ozone takes,
+/// per cm (the paper's table 2).
 constexpr int kFirst_nm = 380, kStep_nm = 10;
 constexpr std::array kSun{165.5, 162.3, 211.2, 258.8, 258.2, 242.3, 267.6, 296.6, 305.4, 300.6, 306.6, 288.3, 287.1,
                           278.2, 271.0, 272.3, 263.6, 255.0, 250.6, 253.1, 253.5, 251.3, 246.3, 241.7, 236.8, 232.1,

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kMaxDepth = 200;
 
-/// Of nodes that no root leads to. No transform has a last row of zeros.
+/// Stands for nodes that no root leads to. No transform has a last row of zeros.
 const glm::dmat4 kUnplaced(0);
 
 [[noreturn]] void throw_circle(const Document& document) {

@@ -30,8 +30,8 @@ constexpr std::array<std::pair<std::string_view, std::size_t>, 14> kOptions{{{"-
                                                                              {"-colorspace", 1}}};
 
 /// A picture of normals points outwards: on the mean it is this blue at least, and half red and green.
-constexpr double kLeastBlue = 0.7;
-constexpr double kMostTilt = 0.15;
+constexpr double kMinBlue = 0.7;
+constexpr double kMaxTilt = 0.15;
 
 bool takes_numbers(std::string_view option) {
   return option == "-o" || option == "-s" || option == "-t";
@@ -48,7 +48,7 @@ bool is_normal_map(const TextureLevel& picture) {
   for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
     sum += glm::dvec3(picture.rgba[i], picture.rgba[i + 1], picture.rgba[i + 2]);
   const glm::dvec3 mean = sum / (255.0 * static_cast<double>(picture.rgba.size()) / 4);
-  return mean.b > kLeastBlue && std::abs(mean.r - 0.5) < kMostTilt && std::abs(mean.g - 0.5) < kMostTilt;
+  return mean.b > kMinBlue && std::abs(mean.r - 0.5) < kMaxTilt && std::abs(mean.g - 0.5) < kMaxTilt;
 }
 
 }  // namespace

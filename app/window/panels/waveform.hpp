@@ -17,7 +17,7 @@ struct Waveform {
   }
 };
 
-/// Of large pictures not every row is counted.
+/// Large pictures are counted by some of their rows.
 Waveform waveform_of(const RgbPicture& picture, int columns);
 
 /// Luma from edge to edge, code 255 on top; the more often a code, the brighter.

@@ -30,7 +30,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Point{3, 35, 60, 73.33423, {6.6250, 0.25225, 0.26441}}, Point{3, 35, 50, 5, {24.4067, 0.28602, 0.29691}},
                       Point{6, 20, 80, 10, {21.7926, 0.39770, 0.39181}}, Point{6, 10, 30, 95.49841, {3.4416, 0.28281, 0.30605}}));
 
-/// Of a surface that faces the sun, in klx.
+/// The illuminance of a surface that faces the sun, in klx.
 double sunlight_klx(double turbidity, double elevation_deg) {
   const double disc_sr = glm::two_pi<double>() * (1 - std::cos(glm::radians(kSunDiameter_deg / 2)));
   return sun_disc(turbidity, glm::radians(elevation_deg)).luminance * disc_sr;
