@@ -12,8 +12,8 @@
 #include "render/made_probe/made_probe.hpp"
 #include "render/math/sh.hpp"
 #include "render/mesh/bounds.hpp"
-#include "render/mesh/mesh_file.hpp"
 #include "render/mesh/test_objects.hpp"
+#include "render/mesh_file/mesh_file.hpp"
 #include "render/receiver_light.hpp"
 #include "render/split_light.hpp"
 

@@ -6,8 +6,8 @@
 #include "catchlight/util/text.hpp"
 #include "render/made_probe/made_probe.hpp"
 #include "render/mesh/bounds.hpp"
-#include "render/mesh/mesh_file.hpp"
 #include "render/mesh/test_objects.hpp"
+#include "render/mesh_file/mesh_file.hpp"
 
 namespace catchlight::app {
 namespace {

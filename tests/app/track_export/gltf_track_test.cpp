@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "catchlight/track.hpp"
-#include "render/mesh/gltf.hpp"
+#include "render/mesh_file/gltf.hpp"
 #include "tests/support/orbit_track.hpp"
 
 namespace catchlight::app {

@@ -2,7 +2,7 @@
 #include "catchlight/color.hpp"
 #include "catchlight/error.hpp"
 #include "render/mesh/bounds.hpp"
-#include "render/mesh/mesh_file.hpp"
+#include "render/mesh_file/mesh_file.hpp"
 #include "tests/support/shapes.hpp"
 #include "tests/support/test_files.hpp"
 
