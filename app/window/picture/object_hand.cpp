@@ -2,15 +2,13 @@
 
 #include <imgui.h>
 
+#include "app/window/picture/hand.hpp"
+
 namespace catchlight::app {
 
 std::string ObjectHand::take_input(const DrawnFrame& frame, const PictureView& view, SettingsHistory& history) {
-  if (!ImGui::IsMouseDown(ImGuiMouseButton_Left) && drag_) {
-    drag_.reset();
-    history.end_gesture();
-  }
-  if (!frame.track.found || history.now().objects.empty()) return "";
-  const auto place_m = seen_place_m(frame.camera, frame.track.camera_from_tag, view.pointed_px());
+  end_released(drag_, history);
+  const auto place_m = history.now().objects.empty() ? std::nullopt : pointed_place_m(frame, view);
   if (!place_m) return "";
   const ImGuiIO& io = ImGui::GetIO();
   if (!drag_ && view.may_take_hold() && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {

@@ -4,6 +4,7 @@
 
 #include "app/session/scene_files.hpp"
 #include "app/window/editing/object_drag.hpp"
+#include "app/window/picture/hand.hpp"
 #include "app/window/surface/gui_keys.hpp"
 
 namespace catchlight::app {
@@ -28,12 +29,8 @@ bool SunHand::is_wanted() {
 }
 
 std::string SunHand::take_input(const DrawnFrame& frame, const PictureView& view, SettingsHistory& history) {
-  if (!ImGui::IsMouseDown(ImGuiMouseButton_Left) && drag_) {
-    drag_.reset();
-    history.end_gesture();
-  }
-  if (!frame.track.found || history.now().objects.empty()) return "";
-  const auto place_m = seen_place_m(frame.camera, frame.track.camera_from_tag, view.pointed_px());
+  end_released(drag_, history);
+  const auto place_m = history.now().objects.empty() ? std::nullopt : pointed_place_m(frame, view);
   if (!place_m) return "";
   if (!drag_ && is_wanted() && view.may_take_hold() && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
     drag_ = drag_of(frame, history.now());
